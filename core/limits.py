@@ -1,0 +1,50 @@
+"""How large a model may be. `Limits()` is what a service allows by default; `Limits.none()` is one's own machine."""
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from core.errors import LimitExceeded
+
+UNLIMITED = 2**62
+
+
+class Limits(BaseModel):
+    """Bounds checked before anything is allocated. Every field is a setting, `CAESURA_` + its name in capitals."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    max_json_bytes: int = Field(32 * 2**20, gt=0, description="bytes of a glTF's JSON")
+    max_vertices: int = Field(500_000, gt=0, description="vertices, after instancing")
+    max_triangles: int = Field(1_000_000, gt=0, description="triangles, after instancing")
+    max_frames: int = Field(1_000_000, gt=0, description="frames of the take at the chosen rate")
+    max_seconds: float = Field(4 * 3600.0, gt=0, description="seconds of the take")
+    max_triangle_frames: int = Field(5_000_000_000, gt=0, description="frames x triangles, the work")
+    max_decoded_bytes: int = Field(2**30, gt=0, description="bytes of static data (accessors, palettes), decoded")
+    max_nodes: int = Field(50_000, gt=0, description="nodes of the scene")
+    max_primitives: int = Field(10_000, gt=0, description="mesh primitives")
+    max_target_vertices: int = Field(50_000_000, gt=0, description="morph targets x vertices")
+
+    @classmethod
+    def none(cls) -> "Limits":
+        """No limits: `caesura segment` on one's own machine."""
+        return cls(**dict.fromkeys(cls.model_fields, UNLIMITED))
+
+    def check(self, name: str, actual: float, advice: str = "") -> None:
+        """Raise `LimitExceeded` where `actual` is over the limit called `name`.
+
+        Compared as given, before any conversion to int, so that 1e308 frames are refused and not wrapped.
+        """
+        limit = getattr(self, name)
+        if actual <= limit:
+            return
+        what = type(self).model_fields[name].description
+        setting = f"CAESURA_{name.upper()}"
+        sentence = f"{actual:g} {what} are over the limit of {limit:g}. "
+        advice = advice or "Send a smaller model"
+        long = name in {"max_frames", "max_seconds"}
+        raise LimitExceeded(
+            "animation-too-long" if long else "limit-exceeded",
+            f"{sentence}{advice}, or ask the keeper of this service to raise {setting}.",
+            limit=limit,
+            actual=actual,
+            setting=setting,
+        )

@@ -1,0 +1,110 @@
+"""What a person may choose, with unit, range and source. One spelling in the API, the command and Python.
+
+Heavy parameters decide what is computed from the vertices, once per choice; light ones decide how the stored
+analysis is cut, in milliseconds. `ALGORITHM` changes whenever the same file and parameters may give another
+result: it is part of every segmentation's id, so an old result never answers for a new method.
+"""
+
+import json
+from collections.abc import Mapping
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from core.errors import ParameterError
+
+ALGORITHM = "1"
+
+Auto = Literal["auto"]
+Positive = Field(gt=0, allow_inf_nan=False)
+
+
+def _heavy(default: Any, description: str, **rules: Any) -> Any:
+    return Field(default, description=description, json_schema_extra={"weight": "heavy"}, **rules)
+
+
+def _light(default: Any, description: str, **rules: Any) -> Any:
+    return Field(default, description=description, json_schema_extra={"weight": "light"}, **rules)
+
+
+class Parameters(BaseModel):
+    """Every knob of the method; the defaults are the paper's where it gives one, ours where it does not."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+    take: str | int = _heavy("longest", "the take: its name, its index, or `longest`")
+    fps: Literal["source"] | float = _heavy(
+        "source", "frames per second; `source` is the rate of the file's own keys", gt=0, le=1000
+    )
+    rest: Literal["bind", "mean"] | int = _heavy(
+        "bind", "rest shape: `bind` (bind pose or base mesh, else frame 0), `mean`, or a frame's number"
+    )
+    descriptor: Literal["strain"] = _heavy("strain", "what is measured on each triangle (paper, section 3)")
+    strain: Literal["log", "biot", "max"] = _heavy("log", "measure of strain: Hencky (`log`), Biot, or largest")
+    scale_invariant: bool = _heavy(False, "take out a uniform scaling of the whole body before strain")
+    normalize: Literal["p99.9", "max", "none"] | float = _heavy(
+        "p99.9", "strain that counts as 1: the 99.9th percentile, the largest, a number, or `none` (1)", gt=0
+    )
+    bins: int = _heavy(10, "levels of strain in the joint distribution (paper: B = 10)", ge=2, le=64)
+    energy: Literal["modified", "joint"] = _heavy(
+        "modified", "joint entropy of windows (Eq. 3) or of neighbours (Eq. 1)"
+    )
+    window_seconds: float = _heavy(1.3, "seconds, length l of a window of Eq. 3 (paper: 1.3 to 1.7)", gt=0, le=600)
+
+    method: Literal["switching", "joint-entropy"] = _light("switching", "how the take is cut")
+    motions: Auto | int = _light("auto", "number of motion types K, or `auto`", ge=1, le=1000)
+    keyframe_window_seconds: float = _light(
+        2.0, "seconds, width ω in which a key-frame is the largest (paper: 2.0 to 2.3)", gt=0, le=600
+    )
+    threshold: float = _light(0.1, "share of the highest energy below which a peak is no key-frame", ge=0, le=1)
+    seed: int = _light(0, "seed of the random starts", ge=0, lt=2**32)
+
+    @classmethod
+    def parse(cls, given: Mapping[str, Any]) -> "Parameters":
+        """Parameters from query strings, command options or JSON; raises `ParameterError` naming the first fault."""
+        unknown = [name for name in given if name not in cls.model_fields]
+        if unknown:
+            raise ParameterError(
+                "unknown-parameter",
+                f"There is no parameter {unknown[0]!r}. Known: {', '.join(cls.model_fields)}.",
+                parameter=unknown[0],
+            )
+        try:
+            return cls.model_validate({name: _value(text) for name, text in given.items()})
+        except ValidationError as refused:
+            first = refused.errors()[0]
+            name = str(first["loc"][0])
+            raise ParameterError(
+                "invalid-parameter",
+                f"{name} = {given[name]!r} is not possible: {first['msg']}. "
+                f"It is: {cls.model_fields[name].description}.",
+                parameter=name,
+            ) from None
+
+    def heavy(self) -> "dict[str, Any]":
+        """The parameters an analysis depends on; light ones may change without touching a vertex."""
+        return self.model_dump(include=names("heavy"))
+
+    def canonical(self) -> str:
+        """The same text for the same choices, however they were spelled: what ids are made of."""
+        return json.dumps(self.model_dump(), sort_keys=True, separators=(",", ":"), ensure_ascii=False)
+
+
+def _value(given: Any) -> Any:
+    """A query string says `3` where JSON says 3: numbers and booleans are read, all else is a name."""
+    if isinstance(given, str):
+        try:
+            parsed = json.loads(given)
+        except ValueError:
+            return given
+        return parsed if isinstance(parsed, (int, float)) else given
+    return given
+
+
+def names(weight: Literal["heavy", "light"]) -> set[str]:
+    """The names of the parameters of one weight."""
+    return {
+        name
+        for name, field in Parameters.model_fields.items()
+        if isinstance(field.json_schema_extra, dict) and field.json_schema_extra["weight"] == weight
+    }

@@ -1,0 +1,1 @@
+"""Characters made by the project itself, performing motions whose truth is known."""
