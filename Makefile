@@ -1,0 +1,55 @@
+# A machine with python3 (3.11 or newer), its venv module and make is enough. Everything lands in this folder.
+
+PYTHON ?= python3
+BIN := .venv/bin
+# Named after this folder, so that a checkout that was moved or copied sets itself up again.
+READY := .venv/ready-$(shell pwd | cksum | cut -d' ' -f1)
+LOCKED := pip install --quiet --disable-pip-version-check
+
+.PHONY: help setup demo test lint bench lock clean
+
+help:
+	@echo "make demo    set up, start the service, segment two sample figures, show them in the page"
+	@echo "make test    set up, then everything that CI runs"
+	@echo "make setup   the environment alone: .venv with the command caesura, and the page's libraries"
+	@echo "make lint    format, rules, types and layers"
+	@echo "make bench   measure accuracy and speed, and write docs/accuracy.md and docs/performance.md"
+	@echo "make lock    resolve the dependencies anew (needs uv)"
+	@echo "make clean   take away all that make made"
+
+setup: $(READY)
+	@$(BIN)/python tools/fetch_assets.py
+
+$(READY): requirements.lock pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	  { echo "Caesura needs Python 3.11 or newer; this is $$($(PYTHON) --version). Try: make PYTHON=python3.12"; exit 1; }
+	@echo "Installing the locked dependencies into .venv; the first time takes a minute."
+	@rm -f .venv/ready-*
+	@$(PYTHON) -m venv .venv
+	@$(BIN)/python -m $(LOCKED) --require-hashes --only-binary :all: -r requirements.lock
+	@$(BIN)/python -m $(LOCKED) --no-deps --no-build-isolation --editable .
+	@touch $@
+
+demo: setup
+	@$(BIN)/caesura demo
+
+test: lint
+	$(BIN)/python -m pytest
+
+lint: setup
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports --no-logo
+
+bench: setup
+	$(BIN)/python -m benchmarks.accuracy
+
+lock:
+	@command -v uv > /dev/null || { echo "make lock needs uv on the PATH"; exit 1; }
+	uv pip compile pyproject.toml --group assets --group test --group build --universal --python-version 3.11 \
+	  --generate-hashes --no-emit-index-url --no-header --quiet --upgrade -o requirements.lock
+
+clean:
+	rm -rf .venv node_modules service/static/vendor dist build .mypy_cache .ruff_cache .pytest_cache .import_linter_cache .hypothesis
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

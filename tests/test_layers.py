@@ -1,0 +1,41 @@
+"""Data flows one way: the contracts on imports in pyproject.toml hold, and would notice if they did not."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+
+def contracts(folder: Path) -> subprocess.CompletedProcess[str]:
+    program = Path(sys.executable).parent / "lint-imports"
+    return subprocess.run(
+        [program, "--no-cache", "--no-logo"], check=False, cwd=folder, capture_output=True, text=True, timeout=120
+    )
+
+
+@pytest.fixture
+def copy(checkout: Path, tmp_path: Path) -> Path:
+    """The sources again, to break them."""
+    for package in ("core", "samples", "service", "worker"):
+        shutil.copytree(checkout / package, tmp_path / package, ignore=shutil.ignore_patterns("static", "__pycache__"))
+    shutil.copy(checkout / "pyproject.toml", tmp_path)
+    return tmp_path
+
+
+def test_the_contracts_hold(checkout: Path) -> None:
+    """Nothing in the sources points upwards, and core knows neither HTTP nor Redis."""
+    run = contracts(checkout)
+    assert run.returncode == 0, run.stdout
+
+
+@pytest.mark.parametrize(
+    ("module", "line"), [("core", "import redis"), ("core", "import worker"), ("worker", "import service")]
+)
+def test_an_arrow_that_points_up_is_noticed(copy: Path, module: str, line: str) -> None:
+    """A forbidden import breaks the contracts."""
+    (copy / module / "wrong.py").write_text(f'"""Wrong."""\n\n{line}\n')
+    run = contracts(copy)
+    assert run.returncode == 1, run.stdout
+    assert f"{module}.wrong" in run.stdout
