@@ -7,7 +7,7 @@ result: it is part of every segmentation's id, so an old result never answers fo
 
 import json
 from collections.abc import Mapping
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
@@ -33,8 +33,8 @@ class Parameters(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     take: str | int = _heavy("longest", "the take: its name, its index, or `longest`")
-    fps: Literal["source"] | float = _heavy(
-        "source", "frames per second; `source` is the rate of the file's own keys", gt=0, le=1000
+    fps: Literal["source"] | Annotated[float, Field(gt=0, le=1000)] = _heavy(
+        "source", "frames per second; `source` is the rate of the file's own keys"
     )
     rest: Literal["bind", "mean"] | int = _heavy(
         "bind", "rest shape: `bind` (bind pose or base mesh, else frame 0), `mean`, or a frame's number"
@@ -42,8 +42,8 @@ class Parameters(BaseModel):
     descriptor: Literal["strain"] = _heavy("strain", "what is measured on each triangle (paper, section 3)")
     strain: Literal["log", "biot", "max"] = _heavy("log", "measure of strain: Hencky (`log`), Biot, or largest")
     scale_invariant: bool = _heavy(False, "take out a uniform scaling of the whole body before strain")
-    normalize: Literal["p99.9", "max", "none"] | float = _heavy(
-        "p99.9", "strain that counts as 1: the 99.9th percentile, the largest, a number, or `none` (1)", gt=0
+    normalize: Literal["p99.9", "max", "none"] | Annotated[float, Field(gt=0)] = _heavy(
+        "p99.9", "strain that counts as 1: the 99.9th percentile, the largest, a number, or `none` (1)"
     )
     bins: int = _heavy(10, "levels of strain in the joint distribution (paper: B = 10)", ge=2, le=64)
     energy: Literal["modified", "joint"] = _heavy(
@@ -52,7 +52,7 @@ class Parameters(BaseModel):
     window_seconds: float = _heavy(1.3, "seconds, length l of a window of Eq. 3 (paper: 1.3 to 1.7)", gt=0, le=600)
 
     method: Literal["switching", "joint-entropy"] = _light("switching", "how the take is cut")
-    motions: Auto | int = _light("auto", "number of motion types K, or `auto`", ge=1, le=1000)
+    motions: Auto | Annotated[int, Field(ge=1, le=1000)] = _light("auto", "number of motion types K, or `auto`")
     keyframe_window_seconds: float = _light(
         2.0, "seconds, width ω in which a key-frame is the largest (paper: 2.0 to 2.3)", gt=0, le=600
     )

@@ -1,0 +1,32 @@
+"""Parameters read what people write, and refuse what is out of range."""
+
+import pytest
+
+from core.errors import ParameterError
+from core.parameters import Parameters
+
+
+def test_parameters_come_back_from_their_own_dump() -> None:
+    """What a record stores is read back as the same choices."""
+    parameters = Parameters()
+    assert Parameters.model_validate(parameters.model_dump()) == parameters
+
+
+@pytest.mark.parametrize(
+    ("given", "read"),
+    [
+        ({"fps": "source"}, "source"), ({"fps": "24"}, 24.0), ({"motions": "auto"}, "auto"), ({"motions": "3"}, 3),
+        ({"normalize": "max"}, "max"), ({"normalize": "0.5"}, 0.5),
+    ],
+)  # fmt: skip
+def test_a_word_or_a_number(given: dict[str, str], read: object) -> None:
+    """Where a parameter takes a word or a number, the query string may say either."""
+    assert getattr(Parameters.parse(given), next(iter(given))) == read
+
+
+@pytest.mark.parametrize("given", [{"fps": "0"}, {"fps": "1001"}, {"motions": "0"}, {"normalize": "-1"}])
+def test_a_number_out_of_range_is_refused(given: dict[str, str]) -> None:
+    """A number that cannot be is refused, and the refusal names the parameter."""
+    with pytest.raises(ParameterError) as refused:
+        Parameters.parse(given)
+    assert refused.value.where["parameter"] == next(iter(given))
