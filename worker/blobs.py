@@ -1,0 +1,137 @@
+"""Files by key, in a local folder or an S3-compatible store: uploads, analyses, what the page plays.
+
+Keys are random, so a key tells nothing and a blob is never written twice; the records point to them. A blob is
+whole or not there: written aside, then moved to its name.
+"""
+
+import errno
+import os
+import secrets
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Literal, Self
+
+import obstore
+from obstore.exceptions import NotFoundError
+from obstore.store import LocalStore, ObjectStore, from_url
+
+Kind = Literal["uploads", "analyses", "viewer", "exports"]
+
+CHUNK_BYTES = 1 << 20
+
+
+class BlobMissing(LookupError):
+    """There is no blob of this key: it was deleted, or kept elsewhere."""
+
+
+class Blobs:
+    """One store. Safe to share between threads; the calls block, so an async caller makes them in a thread."""
+
+    def __init__(self, store: ObjectStore, folder: Path | None, scratch: Path) -> None:
+        self._store = store
+        self._folder = folder
+        self._scratch = scratch
+
+    @classmethod
+    def open(cls, location: str, scratch: Path) -> Self:
+        """The store at a folder, or at a URL such as `s3://bucket/prefix` (credentials from the environment).
+
+        `scratch` is a folder for what must be a file for a while. On the file system of a local store, `adopt`
+        moves a file in at no cost.
+        """
+        scratch.mkdir(parents=True, exist_ok=True)
+        if "://" in location:
+            return cls(from_url(location), None, scratch)
+        folder = Path(location).absolute()
+        return cls(LocalStore(folder, mkdir=True), folder, scratch)
+
+    def adopt(self, path: Path, kind: Kind = "uploads") -> str:
+        """Take over a local file, which must be closed and fsynced: it is moved, not copied, where that can be.
+
+        Raises OSError or obstore's `BaseError` where the store is full or unreachable; the file then stays.
+        """
+        key = _new_key(kind)
+        if self._folder is None or not _moved(path, self._folder / key):
+            obstore.put(self._store, key, path)
+            path.unlink()
+        return key
+
+    def put(self, content: bytes | memoryview, kind: Kind) -> str:
+        """Keep some bytes."""
+        key = _new_key(kind)
+        obstore.put(self._store, key, content)
+        return key
+
+    def read(self, key: str) -> bytes:
+        """All bytes of a blob that is known to be small."""
+        with _missing(key):
+            return bytes(obstore.get(self._store, key).bytes())
+
+    def size(self, key: str) -> int:
+        """How many bytes it has."""
+        with _missing(key):
+            return int(obstore.head(self._store, key)["size"])
+
+    def stream(self, key: str, start: int = 0, end: int | None = None) -> Iterator[bytes]:
+        """Bytes [start, end) in pieces of about 1 MB; a missing blob raises at this call, not at the first piece."""
+        end = self.size(key) if end is None else end
+        if end <= start:
+            return iter(())
+        with _missing(key):
+            answer = obstore.get(self._store, key, options={"range": (start, end)})
+        return map(bytes, answer.stream(min_chunk_size=CHUNK_BYTES))
+
+    @contextmanager
+    def path(self, key: str) -> Iterator[Path]:
+        """The blob as a local file to read or map, never to write: the file itself where the store is a folder."""
+        if self._folder is not None:
+            yield self._existing(key)
+            return
+        with tempfile.NamedTemporaryFile(dir=self._scratch) as copy:
+            for piece in self.stream(key):
+                copy.write(piece)
+            copy.flush()
+            yield Path(copy.name)
+
+    def delete(self, key: str) -> None:
+        """Delete it; nothing happens where it is not there."""
+        with suppress(BlobMissing), _missing(key):
+            obstore.delete(self._store, key)
+
+    def _existing(self, key: str) -> Path:
+        path = (self._folder or Path()) / key
+        if not path.is_file():
+            raise BlobMissing(key)
+        return path
+
+
+@contextmanager
+def _missing(key: str) -> Iterator[None]:
+    """obstore's word for a missing blob, as ours."""
+    try:
+        yield
+    except (NotFoundError, FileNotFoundError) as missing:
+        raise BlobMissing(key) from missing
+
+
+def _new_key(kind: Kind) -> str:
+    return f"{kind}/{secrets.token_hex(16)}"
+
+
+def _moved(path: Path, target: Path) -> bool:
+    """Move a file to its name for good, or say that it lies on another file system."""
+    target.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        path.rename(target)
+    except OSError as refused:
+        if refused.errno == errno.EXDEV:
+            return False
+        raise
+    folder = os.open(target.parent, os.O_RDONLY)
+    try:
+        os.fsync(folder)
+    finally:
+        os.close(folder)
+    return True

@@ -1,0 +1,203 @@
+"""Segmentations as jobs: RQ carries them, the record says how they are.
+
+One attempt is one RQ job, and its id is the attempt's token. Whoever changes an attempt changes the token in the
+same MULTI that queues or ends it, so an attempt that comes late finds that it is no longer the one.
+
+    submit ── queued ── begin ── running ── finish ── done
+                │                   ├── fail ── failed          the file, or a bug
+                │                   ├── lost ── queued again, or failed after `attempts`
+                │                   └── hand back ── queued again, not counted
+                └── cancel ─────────┴── cancelled
+"""
+
+import logging
+from typing import Any
+
+from redis import Redis
+from redis.client import Pipeline
+from rq import Queue as RqQueue
+from rq.command import send_stop_job_command
+from rq.exceptions import InvalidJobOperation, NoSuchJobError
+from rq.job import Job
+from rq.serializers import JSONSerializer
+
+from worker import ids, schema
+from worker.records import Records
+from worker.schema import ExportRecord, Queue, SegmentationRecord
+
+log = logging.getLogger(__name__)
+
+QUEUES: tuple[Queue, ...] = ("analyse", "cut")
+TASKS = {"analyse": "worker.tasks.run_analyse", "cut": "worker.tasks.run_cut", "export": "worker.tasks.run_export"}
+EXPORT_SECONDS = 120
+RESULT_SECONDS = 60  # how long RQ remembers what our record knows anyway
+FAILURE_SECONDS = 24 * 3600
+
+
+def worker_problem(code: str, detail: str, **where: Any) -> dict[str, Any]:
+    """A problem that is not the file's: posting the same again starts anew."""
+    return {"kind": "worker", "code": code, "detail": detail, **where}
+
+
+class Jobs:
+    """What can be asked of the queues. Safe to share between threads; the calls block for a few milliseconds."""
+
+    def __init__(self, client: Redis, attempts: int = 3, job_seconds: int = 3600) -> None:
+        self.records = Records(client)
+        self.redis = client
+        self._attempts = attempts
+        self._seconds = job_seconds
+        self._queues = {name: RqQueue(name, connection=client, serializer=JSONSerializer) for name in QUEUES}
+        self._missed: set[str] = set()
+
+    # What the service asks.
+
+    def submit(self, record: SegmentationRecord) -> SegmentationRecord:
+        """Queue a new segmentation, and answer the record as it is now kept.
+
+        The same one queued, running, done or failed because of the file is answered as it is, without a second
+        job; cancelled, or failed because of this installation, it starts anew. An animation that is analysed
+        already, with the same heavy parameters, goes straight to `cut`.
+        """
+
+        def change(kept: SegmentationRecord) -> SegmentationRecord | None:
+            if kept is not record and (kept.live or kept.settled):
+                return None
+            return self._attempt(kept, attempt=1)
+
+        return self.records.change(record.id, change, self._enqueue, new=record) or self._kept(record)
+
+    def cancel(self, identifier: str) -> SegmentationRecord | None:
+        """queued, running -> cancelled, and stop the worker; None where it was not live."""
+        before = self.records.segmentation(identifier)
+
+        def change(record: SegmentationRecord) -> SegmentationRecord | None:
+            return record.with_(status="cancelled", token="", stage="", fraction=0.0) if record.live else None
+
+        after = self.records.change(identifier, change)
+        if after is not None and before is not None:
+            self._drop(before.token)
+        return after
+
+    def delete(self, identifier: str) -> None:
+        """Cancel where it is live, then forget it and its result."""
+        self.cancel(identifier)
+        record = self.records.segmentation(identifier)
+        if record is not None:
+            self.records.delete_segmentation(record)
+
+    def position(self, record: SegmentationRecord) -> int | None:
+        """How many jobs come before it in its queue; None where it does not wait there."""
+        if record.status != "queued":
+            return None
+        found = self.redis.lpos(self._queues[record.queue].key, record.token)
+        return found if isinstance(found, int) else None
+
+    def depths(self) -> dict[str, int]:
+        """How many jobs wait in each queue."""
+        return {name: self.redis.llen(queue.key) for name, queue in self._queues.items()}
+
+    def submit_export(self, identifier: str, form: str) -> ExportRecord:
+        """Have a file made of a result that is done, unless it is there or being made; see `Records.export`."""
+        key = schema.export_key(identifier, form)
+        with self.redis.pipeline() as pipe:
+            pipe.watch(key)
+            kept = self.records.export(identifier, form)
+            if kept is not None and (kept.problem or {}).get("kind") != "worker":
+                return kept
+            pipe.multi()
+            pipe.set(key, ExportRecord().model_dump_json(), ex=FAILURE_SECONDS)
+            self._call("cut", "export", [identifier, form], ids.token(), EXPORT_SECONDS, pipe)
+            pipe.execute()
+        return ExportRecord()
+
+    # What workers say.
+
+    def again(self, identifier: str, token: str, problem: dict[str, Any]) -> SegmentationRecord | None:
+        """The attempt was lost to the infrastructure: try once more, or fail with `problem` after the last attempt.
+
+        None where the attempt is no longer the current one: then nothing is changed.
+        """
+
+        def change(record: SegmentationRecord) -> SegmentationRecord | None:
+            if record.token != token or not record.live:
+                return None
+            if record.attempt >= self._attempts:
+                return record.with_(status="failed", problem=problem)
+            return self._attempt(record, attempt=record.attempt + 1)
+
+        after = self.records.change(identifier, change, self._enqueue)
+        if after is not None:
+            log.warning("%s: attempt lost (%s), now %s", identifier, problem["code"], after.status)
+        return after
+
+    def hand_back(self, identifier: str, token: str, queue: Queue | None = None) -> SegmentationRecord | None:
+        """Queue an attempt again that ends for no fault, such as a worker's shutdown; `queue` may be another."""
+
+        def change(record: SegmentationRecord) -> SegmentationRecord | None:
+            wanted = record.token == token and record.live
+            return self._attempt(record, attempt=record.attempt, queue=queue) if wanted else None
+
+        return self.records.change(identifier, change, self._enqueue)
+
+    # How nothing is stuck.
+
+    def reconcile(self, everything_started_is_lost: bool = False) -> int:
+        """Find live segmentations that nobody works on and try them again; answers how many.
+
+        Running without a lease, or queued without a place in a queue, at two calls in a row: one alone may be
+        a clock that jumped, or a job on its way from the queue to its worker. Call every few seconds; any number
+        of processes may. At the start of an embedded server no worker can be alive: then one call settles all.
+        """
+        missing = {record.token: record for record in self.records.live() if not self._attended(record)}
+        if everything_started_is_lost:
+            missing = {r.token: r for r in self.records.live() if r.status == "running" or not self._attended(r)}
+        lost = set(missing) if everything_started_is_lost else set(missing) & self._missed
+        self._missed = set(missing) - lost
+        problem = worker_problem("worker-lost", "The worker was lost while it worked on this. Please try again.")
+        return sum(self.again(missing[token].id, token, problem) is not None for token in lost)
+
+    def _attended(self, record: SegmentationRecord) -> bool:
+        if record.status == "running":
+            return bool(self.redis.exists(schema.lease_key(record.token)))
+        return self.redis.lpos(self._queues[record.queue].key, record.token) is not None
+
+    # One attempt, one RQ job.
+
+    def _attempt(self, record: SegmentationRecord, attempt: int, queue: Queue | None = None) -> SegmentationRecord:
+        """A fresh attempt at the same."""
+        if queue is None:
+            digest = ids.heavy_digest(record.chosen().heavy(), record.algorithm)
+            queue = "analyse" if self.records.analysis(record.animation, digest) is None else "cut"
+        fresh = {"stage": "", "fraction": 0.0, "problem": None, "attempt": attempt, "queue": queue}
+        return record.with_(status="queued", token=ids.token(), **fresh)
+
+    def _enqueue(self, pipe: Pipeline, record: SegmentationRecord) -> None:
+        if record.status == "queued":
+            self._call(record.queue, record.queue, [record.id, record.token], record.token, self._seconds, pipe)
+
+    def _call(self, queue: Queue, task: str, args: list[str], job_id: str, seconds: int, pipe: Any) -> None:
+        self._queues[queue].enqueue_call(
+            TASKS[task],
+            args=args,
+            job_id=job_id,
+            timeout=seconds,
+            result_ttl=RESULT_SECONDS,
+            failure_ttl=FAILURE_SECONDS,
+            description=f"{task} {args[0]}",
+            pipeline=pipe,
+        )
+
+    def _drop(self, token: str) -> None:
+        """Take an attempt's RQ job out of its queue, or stop the worker that runs it."""
+        try:
+            job = Job.fetch(token, connection=self.redis, serializer=JSONSerializer)
+            if job.worker_name:
+                send_stop_job_command(self.redis, token, serializer=JSONSerializer)
+            else:
+                job.delete()
+        except (NoSuchJobError, InvalidJobOperation):
+            return
+
+    def _kept(self, record: SegmentationRecord) -> SegmentationRecord:
+        return self.records.segmentation(record.id) or self.submit(record)

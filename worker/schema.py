@@ -1,0 +1,177 @@
+"""What Redis holds of ours: the records, and the names of the keys. RQ's keys are RQ's own affair.
+
+| key | type | value |
+|---|---|---|
+| caesura:secret | string | key of all ids |
+| caesura:animation:ID | string | AnimationRecord, JSON |
+| caesura:animations:OWNER | sorted set | ids of animations by time of creation |
+| caesura:segmentation:ID | string | SegmentationRecord, JSON |
+| caesura:segmentation:ID:document | string | the result document, JSON |
+| caesura:segmentation:ID:energy | string | little-endian float32, one per frame, NaN where there is none |
+| caesura:segmentation:ID:labels | string | little-endian uint16, one per frame |
+| caesura:segmentations:ANIMATION | sorted set | ids of segmentations by time of creation |
+| caesura:live | set | ids of segmentations that are queued or running |
+| caesura:lease:TOKEN | string, expires | the attempt has a living worker |
+| caesura:analysis:ANIMATION:DIGEST | string | AnalysisRecord, JSON |
+| caesura:analyses:ANIMATION | set | the digests of an animation's analyses |
+| caesura:export:ID:FORMAT | string | ExportRecord, JSON |
+| caesura:changed:ID | channel | told at every change of a segmentation or its exports |
+"""
+
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict
+
+from core.document import Segment
+from core.parameters import Parameters
+
+Status = Literal["queued", "running", "done", "failed", "cancelled"]
+Queue = Literal["analyse", "cut"]
+
+LIVE_KEY = "caesura:live"
+
+
+def animation_key(identifier: str) -> str:
+    """One animation."""
+    return f"caesura:animation:{identifier}"
+
+
+def animations_key(owner: str) -> str:
+    """An owner's animations, by time."""
+    return f"caesura:animations:{owner}"
+
+
+def segmentation_key(identifier: str, part: Literal["", "document", "energy", "labels"] = "") -> str:
+    """One segmentation's record, or a part of its result."""
+    return f"caesura:segmentation:{identifier}" + (f":{part}" if part else "")
+
+
+def segmentations_key(animation: str) -> str:
+    """An animation's segmentations, by time."""
+    return f"caesura:segmentations:{animation}"
+
+
+def analysis_key(animation: str, digest: str) -> str:
+    """One analysis."""
+    return f"caesura:analysis:{animation}:{digest}"
+
+
+def analyses_key(animation: str) -> str:
+    """An animation's analyses."""
+    return f"caesura:analyses:{animation}"
+
+
+def export_key(segmentation: str, form: str) -> str:
+    """One file made of a result."""
+    return f"caesura:export:{segmentation}:{form}"
+
+
+def lease_key(token: str) -> str:
+    """The sign of life of an attempt."""
+    return f"caesura:lease:{token}"
+
+
+def channel(segmentation: str) -> str:
+    """Where changes of a segmentation are told."""
+    return f"caesura:changed:{segmentation}"
+
+
+class _Record(BaseModel):
+    model_config = ConfigDict(frozen=True)
+
+
+class Part(_Record):
+    """One file of an upload: its name, its blob, its size."""
+
+    name: str
+    key: str
+    bytes: int
+
+
+class TakeSummary(_Record):
+    """One animation of the file, as its header tells; the worker's count of frames holds."""
+
+    index: int
+    name: str
+    duration_seconds: float
+    frames: int
+    frame_rate: float
+
+
+class AnimationRecord(_Record):
+    """An uploaded file. `created` and `used` are seconds since 1970."""
+
+    id: str
+    owner: str = ""
+    name: str
+    format: str
+    parts: tuple[Part, ...]
+    takes: tuple[TakeSummary, ...] = ()
+    vertices: int | None = None
+    triangles: int | None = None
+    created: float
+    used: float = 0.0
+
+
+class AnalysisRecord(_Record):
+    """What was computed from the vertices: the blob of the analysis, and those that the page plays."""
+
+    key: str
+    bytes: int
+    viewer: dict[str, str] = {}
+
+
+class ExportRecord(_Record):
+    """A file made of a result by a job: pending without a key or a problem."""
+
+    key: str | None = None
+    media_type: str = ""
+    problem: dict[str, Any] | None = None
+
+
+class SegmentationRecord(_Record):
+    """One way to cut an animation, and how far it is.
+
+    queued -> running -> done | failed | cancelled. `token` names the current attempt: whoever holds another
+    can no longer write. `problem` is what `CaesuraError.problem()` gave, or one of kind `worker`, which is not
+    the file's fault: posting the same again then starts anew. `parameters` are complete, defaults filled in.
+    """
+
+    id: str
+    animation: str
+    owner: str = ""
+    name: str = ""
+    parameters: dict[str, Any]
+    algorithm: str
+    status: Status = "queued"
+    queue: Queue = "analyse"
+    stage: str = ""
+    fraction: float = 0.0
+    attempt: int = 0
+    token: str = ""
+    problem: dict[str, Any] | None = None
+    created: float
+    updated: float
+    analysis: str | None = None
+    viewer: dict[str, str] = {}
+    motions: int | None = None
+    frames: int | None = None
+    segments: tuple[Segment, ...] = ()
+
+    @property
+    def live(self) -> bool:
+        """Queued or running: it will still change."""
+        return self.status in {"queued", "running"}
+
+    @property
+    def settled(self) -> bool:
+        """Its answer would be the same again: done, or failed because of the file or the parameters."""
+        return self.status == "done" or (self.status == "failed" and (self.problem or {}).get("kind") != "worker")
+
+    def chosen(self) -> Parameters:
+        """The parameters as core takes them."""
+        return Parameters.model_validate(self.parameters)
+
+    def with_(self, **changes: Any) -> "SegmentationRecord":
+        """The same record but for `changes`."""
+        return self.model_copy(update=changes)
