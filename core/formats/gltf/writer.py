@@ -27,6 +27,7 @@ class Primitive:
     positions: Float[np.ndarray, "V 3"]
     triangles: Int[np.ndarray, "T 3"]
     normals: Float[np.ndarray, "V 3"] | None = None
+    colours: Float[np.ndarray, "V 3"] | None = None  # linear red, green, blue in [0, 1]
     joints: Int[np.ndarray, "V 4"] | None = None
     weights: Float[np.ndarray, "V 4"] | None = None
     targets: Sequence[Float[np.ndarray, "V 3"]] = ()
@@ -151,6 +152,8 @@ class GlbWriter:
         attributes = {"POSITION": attribute(p.positions, bounds=True)}
         if p.normals is not None:
             attributes["NORMAL"] = attribute(p.normals)
+        if p.colours is not None:
+            attributes["COLOR_0"] = attribute(p.colours)
         if p.joints is not None and p.weights is not None:
             narrow = "uint8" if p.joints.max() < 256 else "uint16"
             attributes["JOINTS_0"] = self.accessor(p.joints.astype(narrow), target=VERTEX_DATA)
