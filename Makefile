@@ -5,6 +5,8 @@ BIN := .venv/bin
 # Named after this folder, so that a checkout that was moved or copied sets itself up again.
 READY := .venv/ready-$(shell pwd | cksum | cut -d' ' -f1)
 LOCKED := pip install --quiet --disable-pip-version-check
+# For every platform and Python at once, with digests and without the name of any registry.
+COMPILE := uv pip compile pyproject.toml --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --quiet
 
 .PHONY: help setup demo test lint bench lock clean
 
@@ -47,8 +49,8 @@ bench: setup
 
 lock:
 	@command -v uv > /dev/null || { echo "make lock needs uv on the PATH"; exit 1; }
-	uv pip compile pyproject.toml --group assets --group test --group build --universal --python-version 3.11 \
-	  --generate-hashes --no-emit-index-url --no-header --quiet --upgrade -o requirements.lock
+	$(COMPILE) --upgrade --group assets --group test --group build -o requirements.lock
+	$(COMPILE) --upgrade --constraints requirements.lock -o requirements.runtime.lock
 
 clean:
 	rm -rf .venv node_modules service/static/vendor dist build .mypy_cache .ruff_cache .pytest_cache .import_linter_cache .hypothesis
