@@ -1,7 +1,7 @@
 """An animation as the method sees it: one triangulation, and vertices drawn by blocks of frames."""
 
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -9,6 +9,7 @@ from jaxtyping import Float, Int
 from core.document import Notice
 
 
+@runtime_checkable
 class Vertices(Protocol):
     """Draws frames. Safe to call from several threads at once, and the same bytes at every call."""
 

@@ -66,7 +66,7 @@ class Segmentation:
                 name=motion_name(int(self.labels[start])),
                 confidence=round(float(confidence), 4),
             )
-            for start, end, confidence in zip(bounds, bounds[1:], sure, strict=True)
+            for start, end, confidence in zip(bounds[:-1], bounds[1:], sure, strict=True)
         )
 
     def document(self, identifier: str | None = None) -> SegmentationDocument:
