@@ -1,0 +1,48 @@
+"""The features of every frame: descriptors on their leading components, learnt from a sample of the take."""
+
+import numpy as np
+
+from core.analysis import Features
+from core.animation import Animation
+from core.blocks import blocks_of, frames_per_block, map_blocks
+from core.body import Body
+from core.descriptors.projection import SAMPLE, Projection, sample_frames
+from core.drawing import draw_frames
+from core.progress import Progress, ignore
+
+NAMES = ("strain", "pair-distances")
+
+Basis = tuple[Projection, Projection]
+"""The components of the patch means of strain, and of the pair distances."""
+
+
+def basis(animation: Animation, body: Body, threads: int = 1, progress: Progress = ignore) -> Basis | None:
+    """Components from about 2,000 evenly spaced frames; None for a shorter take, whose every frame is the sample."""
+    if animation.frames <= SAMPLE:
+        return None
+    frames = sample_frames(animation.frames)
+    blocks = blocks_of(len(frames), frames_per_block(animation.vertex_count))
+
+    def described(block: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
+        return body.describe(draw_frames(animation, frames[slice(*block)]))
+
+    pages = list(map_blocks(described, blocks, threads, progress=progress, stage="sample", total=len(blocks)))
+    strain, distances = (np.concatenate(kind) for kind in zip(*pages, strict=True))
+    return Projection.of(strain), Projection.of(distances)
+
+
+def features(
+    projections: Basis | None, described: tuple[np.ndarray, np.ndarray], changing: tuple[bool, bool]
+) -> tuple[Features, Features]:
+    """Frames as `described`: already projected where there was a basis, else it is learnt here from all of them.
+
+    A descriptor that does not change beyond rounding has no columns: its components would be noise.
+    """
+    if projections is None:
+        projections = (Projection.of(described[0]), Projection.of(described[1]))
+        described = (projections[0].project(described[0]), projections[1].project(described[1]))
+    strain, distances = (
+        Features(name, values if changes else values[:, :0].copy(), projection.energy_share)
+        for name, projection, values, changes in zip(NAMES, projections, described, changing, strict=True)
+    )
+    return strain, distances

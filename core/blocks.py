@@ -1,0 +1,81 @@
+"""Blocks of frames, and a map over them on threads of our own.
+
+Everything long is a function of a block of frames. The kernels release the interpreter's lock, so plain threads
+run them side by side; results come back in block order, so any reduction over them is the same for any number of
+threads.
+"""
+
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from itertools import islice
+from typing import TypeVar
+
+from core.progress import Progress, ignore
+
+BLOCK_BYTES = 32 * 2**20
+MOST_FRAMES = 64
+HEARTBEAT_SECONDS = 0.2
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+
+Block = tuple[int, int]
+"""Frames [start, stop)."""
+
+
+def frames_per_block(vertex_count: int) -> int:
+    """8 to 64 frames, so that one block of float32 vertices stays near `BLOCK_BYTES`."""
+    fitting = BLOCK_BYTES // max(12 * vertex_count, 1)
+    return int(min(max(fitting // 8 * 8, 8), MOST_FRAMES))
+
+
+def blocks_of(frames: int, size: int) -> list[Block]:
+    """[0, frames) in blocks of `size` frames, the last one shorter."""
+    return [(start, min(start + size, frames)) for start in range(0, frames, size)]
+
+
+def map_blocks(
+    function: Callable[[Item], Result],
+    items: Iterable[Item],
+    threads: int,
+    *,
+    progress: Progress = ignore,
+    stage: str = "",
+    total: int = 0,
+) -> Iterator[Result]:
+    """`function` of every item, in order, at most `threads` + 1 of them begun and not yet taken.
+
+    `items` may itself be lazy: it is drawn from the calling thread. `progress` hears the share of `total` done
+    before every wait and every 0.2 s of it. One thread means the calling one.
+    """
+    source = iter(items)
+    if threads <= 1:
+        for done, item in enumerate(source):
+            progress(stage, done / (total or 1))
+            yield function(item)
+        return
+    with ThreadPoolExecutor(threads, thread_name_prefix="caesura") as pool:
+        ahead: deque[Future[Result]] = deque()
+        done = 0
+        try:
+            while True:
+                ahead.extend(pool.submit(function, item) for item in islice(source, threads + 1 - len(ahead)))
+                if not ahead:
+                    return
+                yield _awaited(ahead.popleft(), lambda: progress(stage, done / (total or 1)))  # noqa: B023  called at once
+                done += 1
+        finally:
+            for waiting in ahead:
+                waiting.cancel()
+
+
+def _awaited(future: "Future[Result]", heartbeat: Callable[[], None]) -> Result:
+    heartbeat()
+    while True:
+        try:
+            return future.result(HEARTBEAT_SECONDS)
+        except TimeoutError:
+            if future.done():  # the function itself timed out: that is its answer
+                raise
+            heartbeat()

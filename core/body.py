@@ -1,0 +1,89 @@
+"""What is measured of a body: strains, their means on patches, and pair distances; all chosen from the rest shape."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+from jaxtyping import Float32, Int
+
+from core.descriptors.pair_distances import PairDistances
+from core.descriptors.pair_strain import PairStrain
+from core.descriptors.patch_means import PatchMeans
+from core.descriptors.patches import patch_of_triangles
+from core.descriptors.strain import TriangleStrain
+from core.document import Notice
+from core.errors import InvalidModel
+from core.parameters import Parameters
+
+
+@runtime_checkable
+class Surface(Protocol):
+    """Strains of a body: of its triangles, or of its pairs of points where it has none that strain."""
+
+    @property
+    def columns(self) -> int:
+        """How many strains there are in a frame."""
+
+    def tiles(
+        self, block: Float32[np.ndarray, "frames V 3"]
+    ) -> Iterator[tuple[slice, Float32[np.ndarray, "n frames"]]]:
+        """Columns, and their strain in every frame; each array lives until the next."""
+
+    def noise(self, reach: float) -> Float32[np.ndarray, "columns"]:
+        """The strain that rounding alone gives each column where coordinates go up to `reach`."""
+
+
+@dataclass(frozen=True)
+class Body:
+    """What is measured on every frame: strains, their means on patches, and pair distances."""
+
+    surface: Surface
+    patches: PatchMeans
+    pairs: PairDistances
+
+    def describe(self, vertices: Float32[np.ndarray, "frames V 3"]) -> tuple[np.ndarray, np.ndarray]:
+        """Patch means of strain (frames, patches) and pair distances (frames, pairs)."""
+        means = self.patches.empty(len(vertices))
+        if self.patches.patches:
+            for columns, tile in self.surface.tiles(vertices):
+                self.patches.add(columns, tile, means)
+        return means.T, self.pairs.measure(vertices)
+
+    @classmethod
+    def of(
+        cls, rest: Float32[np.ndarray, "V 3"], triangles: Int[np.ndarray, "T 3"], parameters: Parameters
+    ) -> "tuple[Body, tuple[Notice, ...]]":
+        """The strain of the triangles, or of pairs of points where there are none; and what must be said of it.
+
+        Raises `InvalidModel` where there are triangles and none has area at rest.
+        """
+        pairs = PairDistances.of(rest, triangles)
+        if len(triangles) == 0:
+            notice = Notice(
+                code="no-mesh-skeleton",
+                detail="There is no mesh: the motions are those of the joints, by their distances from each other.",
+            )
+            return cls(PairStrain.of(pairs), NO_PATCHES, pairs), (notice,)
+        patch = patch_of_triangles(rest, triangles)
+        order = np.argsort(patch, kind="stable")
+        strain = TriangleStrain.of(rest, triangles, order, parameters.strain, parameters.scale_invariant)
+        if strain.columns == 0:
+            detail = "No triangle of the rest shape has area, so nothing can be strained. Send a mesh with a surface."
+            raise InvalidModel("degenerate-mesh", detail)
+        return cls(strain, PatchMeans.of(patch[strain.triangles], strain.areas), pairs), _left_out(strain)
+
+    def by_pairs(self) -> "Body":
+        """The same body, with the strain of its pairs of points in place of its triangles'."""
+        return Body(PairStrain.of(self.pairs), NO_PATCHES, self.pairs)
+
+
+NO_PATCHES = PatchMeans.of(np.zeros(0, np.int64), np.zeros(0))
+
+
+def _left_out(strain: TriangleStrain) -> tuple[Notice, ...]:
+    if strain.left_out == 0:
+        return ()
+    every = strain.left_out + strain.columns
+    detail = f"{strain.left_out} of {every} triangles have no area at rest and were left out."
+    return (Notice(code="degenerate-triangles", detail=detail),)

@@ -1,0 +1,84 @@
+"""Strain in 16 bits, and the strain that counts as 1, exact to the code, from the histogram of the codes.
+
+A code is the top of a float32: 4 bits of exponent and 12 of mantissa. The step is 1/4096 of the value or less,
+so a bin's edge in codes is within 1/8192 of its place, over 16 octaves that a power of two (`gain`) moves to
+where the data are.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Float32, Int, UInt16
+
+from core import kernels
+
+SHIFT = 11
+LOWEST = int(np.float32(2.0**-12).view(np.int32)) >> SHIFT
+CODES = 2**16
+PERCENTILE = 99.9
+
+
+@dataclass(frozen=True)
+class Coding:
+    """Codes of 2⁻¹² / gain (and all below: code 0) to 16 / gain (and all above)."""
+
+    gain: float
+
+    @classmethod
+    def around(cls, largest: float) -> "Coding":
+        """The coding for values whose largest so far is `largest`: 8 times more still fits."""
+        return cls(2.0 ** -np.floor(np.log2(largest)) if largest > 0 else 1.0)
+
+    def encode(
+        self, values: Float32[np.ndarray, "columns frames"], out: UInt16[np.ndarray, "columns frames"] | None = None
+    ) -> UInt16[np.ndarray, "columns frames"]:
+        """The codes of values ≥ 0, written into `out` where it is given; larger values never have smaller codes."""
+        codes = np.empty(values.shape, np.uint16) if out is None else out
+        kernels.encode(values, np.float32(self.gain), np.int32(LOWEST), np.int32(SHIFT), codes)
+        return codes
+
+    def decode(self, position: float) -> float:
+        """The value at a position between codes: `decode(c)` is the least value of code c, c ≥ 1; `decode(0)` is 0."""
+        if position < 1:
+            return position * self.decode(1)
+        whole = int(position)
+        low, high = (float(np.int32((LOWEST + code) << SHIFT).view(np.float32)) for code in (whole, whole + 1))
+        return (low + (high - low) * (position - whole)) / self.gain
+
+    def edges(self, scale: float, bins: int) -> UInt16[np.ndarray, "edges"]:
+        """Codes c_1 … c_{B−1}: a value is above i / B of `scale` where its code is above c_i, to half a step."""
+        above = scale * np.arange(1, bins) / bins * self.gain
+        bits = np.asarray(above, np.float32).view(np.int32).astype(np.int64)
+        nearest = (bits + 2 ** (SHIFT - 1)) // 2**SHIFT - LOWEST
+        return np.asarray(np.clip(nearest - 1, 0, CODES - 2), np.uint16)
+
+    def percentile(self, histogram: Int[np.ndarray, "codes"], percent: float = PERCENTILE) -> float:
+        """The value that `percent` of all values do not exceed, as `np.percentile` defines it.
+
+        Exact to the code, and inside the code's step by rank, as if its values were spread evenly.
+        """
+        below = np.cumsum(histogram)
+        rank = (int(below[-1]) - 1) * percent / 100
+        code = int(np.searchsorted(below, rank, side="right"))
+        inside = (rank - (int(below[code]) - int(histogram[code])) + 0.5) / int(histogram[code])
+        return self.decode(code + min(max(inside, 0.0), 1.0))
+
+
+def normaliser(
+    rule: str | float,
+    coding: Coding,
+    histogram: Int[np.ndarray, "codes"],
+    largest: Float[np.ndarray, "frames"],
+    strains: bool,
+) -> float:
+    """The strain that counts as 1: the 99.9th percentile, the largest, a given number, or 1 (`none`).
+
+    Also 1 where nothing strains: noise is not stretched to full scale.
+    """
+    if not strains and not isinstance(rule, float):
+        return 1.0
+    if rule == "p99.9":
+        return coding.percentile(histogram)
+    if rule == "max":
+        return float(largest.max())
+    return 1.0 if rule == "none" else float(rule)

@@ -1,0 +1,133 @@
+"""Strain: how much each triangle is stretched or squeezed in its own plane, against the rest shape (paper, section 3).
+
+Rigid motion cancels by construction. With the edges written in the triangle's orthonormal rest frame the
+deformation F is 3x2, C = FᵀF = [[E, B], [B, G]], and the squared principal stretches are
+
+    λ1 = (E + G) / 2 + sqrt(((E − G) / 2)² + B²),    λ2 = (E G − B²) / λ1.
+
+This form keeps its digits in float32; (tr / 2)² − det does not.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Float32, Float64, Int
+
+from core.descriptors import kernels
+
+MEASURES = {"log": kernels.LOG, "biot": kernels.BIOT, "max": kernels.MAX}
+"""`log`: sqrt(ln²σ1 + ln²σ2) (Hencky); `biot`: sqrt((σ1−1)² + (σ2−1)²); `max`: max(|σ1−1|, |σ2−1|). σ = sqrt(λ)."""
+
+TILE = 1024
+ROUNDING = 2.0**-20
+"""Relative error of the edges of a triangle whose corners were rounded to float32, with room for how they were made."""
+
+
+@dataclass(frozen=True)
+class Tile:
+    """Neighbouring triangles with vertices of their own: `members` in the mesh, `corners` among the members.
+
+    `shapes` (n, 3) are 1 / a, 1 / c and b / (a c) of the rest triangle with corners (0, 0), (a, 0), (b, c).
+    """
+
+    members: Int[np.ndarray, "v"]
+    corners: Int[np.ndarray, "n 3"]
+    shapes: Float32[np.ndarray, "n 3"]
+
+
+@dataclass(frozen=True)
+class TriangleStrain:
+    """Strain of the triangles of a mesh that have area at rest, in the order `triangles`, of which there are `columns`.
+
+    `areas` (columns,) are the areas at rest; `thinness` (columns,) is 1 / c, so that corners rounded by δ are
+    strained by about δ · thinness; `left_out` counts the triangles without area at rest.
+    """
+
+    columns: int
+    left_out: int
+    triangles: Int[np.ndarray, "columns"]
+    areas: Float64[np.ndarray, "columns"]
+    thinness: Float64[np.ndarray, "columns"]
+    measure: int
+    scale_invariant: bool
+    parts: tuple[Tile, ...]
+
+    @classmethod
+    def of(
+        cls,
+        rest: Float[np.ndarray, "V 3"],
+        triangles: Int[np.ndarray, "T 3"],
+        order: Int[np.ndarray, "T"],
+        measure: str = "log",
+        scale_invariant: bool = False,
+    ) -> "TriangleStrain":
+        """Prepare the rest triangles in float64; `order` is a coherent order, so that a tile shares its vertices.
+
+        A triangle whose height is within the rounding of its own corners has no area and takes no part.
+        """
+        corners = _longest_edge_first(rest, triangles[order])
+        origin, first, second = rest[corners.T].astype(np.float64)
+        a = np.linalg.norm(first - origin, axis=1)
+        doubled = np.linalg.norm(np.cross(first - origin, second - origin), axis=1)
+        resolution = 4 * np.finfo(np.float32).eps * np.abs(rest[corners]).max(axis=(1, 2), initial=0)
+        kept = doubled > a * resolution
+        corners, a, doubled = corners[kept], a[kept], doubled[kept]
+        along = np.einsum("tc,tc->t", first - origin, second - origin)[kept]
+        c = doubled / a
+        shapes = np.stack([1 / a, 1 / c, along / a / a / c], axis=1).astype(np.float32)
+        parts = tuple(_tile(corners[i : i + TILE], shapes[i : i + TILE]) for i in range(0, len(corners), TILE))
+        left_out = len(triangles) - len(corners)
+        return cls(len(corners), left_out, order[kept], doubled / 2, 1 / c, MEASURES[measure], scale_invariant, parts)
+
+    def tiles(
+        self, block: Float32[np.ndarray, "frames V 3"]
+    ) -> Iterator[tuple[slice, Float32[np.ndarray, "n frames"]]]:
+        """Columns, and their strain in every frame of the block; no unit, from 0. Each array lives until the next.
+
+        Finite for vertices below `kernels.REACH`: a stretch below a thousandth counts as a thousandth.
+        """
+        frames = len(block)
+        rows = np.empty((max((len(p.members) for p in self.parts), default=0), 3, frames), np.float32)
+        tile, other = np.empty((TILE, frames), np.float32), np.empty(frames, np.float32)
+        scale = self._scale(block, rows)
+        for number, part in enumerate(self.parts):
+            kernels.gather(block, part.members, rows)
+            out = tile[: len(part.corners)]
+            kernels.strain_tile(rows, part.corners, part.shapes, scale, self.measure, other, out)
+            yield slice(number * TILE, number * TILE + len(out)), out
+
+    def noise(self, reach: float) -> Float32[np.ndarray, "columns"]:
+        """The strain that rounding alone gives each triangle where coordinates go up to `reach`."""
+        return (ROUNDING * reach * self.thinness).astype(np.float32)
+
+    def _scale(
+        self, block: Float32[np.ndarray, "frames V 3"], rows: Float32[np.ndarray, "v 3 frames"]
+    ) -> Float32[np.ndarray, "frames"]:
+        """What the squared stretches are multiplied by: rest area over the frame's, or 1."""
+        if not self.scale_invariant:
+            return np.ones(len(block), np.float32)
+        twice = np.zeros(len(block), np.float64)
+        for part in self.parts:
+            kernels.gather(block, part.members, rows)
+            kernels.add_areas(rows, part.corners, twice)
+        smallest = np.finfo(np.float32).tiny * self.areas.sum()
+        return np.asarray(np.minimum(2 * self.areas.sum() / np.maximum(twice, smallest), 1e12), np.float32)
+
+
+def _longest_edge_first(rest: Float[np.ndarray, "V 3"], triangles: Int[np.ndarray, "T 3"]) -> Int[np.ndarray, "T 3"]:
+    """The same triangles, turned and flipped so that corner 0 to 1 is the longest edge and 2 is nearer to 0.
+
+    Then b ≤ a / 2, and a sliver loses no digits to its long edges. Strain knows no orientation.
+    """
+    corners = rest[triangles].astype(np.float64)
+    lengths = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
+    turn = (lengths.argmax(axis=1)[:, None] + np.arange(3)) % 3
+    turned, lengths = np.take_along_axis(triangles, turn, 1), np.take_along_axis(lengths, turn, 1)
+    flip = lengths[:, 1] < lengths[:, 2]
+    return np.asarray(np.where(flip[:, None], turned[:, [1, 0, 2]], turned))
+
+
+def _tile(corners: Int[np.ndarray, "n 3"], shapes: Float32[np.ndarray, "n 3"]) -> Tile:
+    members, local = np.unique(corners, return_inverse=True)
+    return Tile(members.astype(np.int32), local.reshape(-1, 3).astype(np.int32), np.ascontiguousarray(shapes))

@@ -1,0 +1,73 @@
+"""Joint entropy of the strains at two times (paper, Eq. 1 to 3), from counts of triangles.
+
+For the frame pair (n, n + l) let C_n be the B x B matrix that counts the triangles in bin i at n and bin j at
+n + l. Every probability of the paper is a sum of such counts over a fixed total, so counts are all that is kept:
+integers, the same in any order and on any number of threads.
+"""
+
+from collections import deque
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int, Int32, UInt8
+from scipy.special import xlogy
+
+from core import kernels
+
+
+@dataclass(frozen=True)
+class Pairing:
+    """The bins of frames [n, n + width) and those l frames later, as views (columns, width) of the blocks at hand."""
+
+    pieces: tuple[tuple[UInt8[np.ndarray, "columns _"], UInt8[np.ndarray, "columns _"]], ...]
+    levels: int
+
+    def counts(self) -> Int32[np.ndarray, "pairs levels2"]:
+        """C_n of every pair in turn, each row a matrix of levels x levels (Eq. 1, times the number of triangles)."""
+        counted = [np.zeros((first.shape[1], self.levels**2), np.int32) for first, _ in self.pieces]
+        for (first, second), counts in zip(self.pieces, counted, strict=True):
+            kernels.count_pairs(first, second, self.levels, counts)
+        return np.concatenate(counted)
+
+
+def pairings(blocks: Iterable[UInt8[np.ndarray, "columns _"]], lag: int, levels: int) -> Iterator[Pairing]:
+    """Join every frame with the one `lag` frames later, as the blocks of bins come; holds the last `lag` frames."""
+    held: deque[np.ndarray] = deque()
+    taken = 0  # frames of held[0] that have met their partner
+    behind = 0  # frames that were read and have not
+    for block in blocks:
+        held.append(block)
+        behind += block.shape[1]
+        pieces = []
+        while behind > lag:
+            first = held[0]
+            at = block.shape[1] - (behind - lag)
+            width = min(first.shape[1] - taken, behind - lag)
+            pieces.append((first[:, taken : taken + width], block[:, at : at + width]))
+            taken, behind = taken + width, behind - width
+            if taken == first.shape[1]:
+                held.popleft()
+                taken = 0
+        if pieces:
+            yield Pairing(tuple(pieces), levels)
+
+
+def sliding_sums(counts: Iterable[Int[np.ndarray, "_ levels2"]], length: int) -> Iterator[Int[np.ndarray, "_ levels2"]]:
+    """C_{m−l+1} + … + C_m for every m ≥ l − 1, in as many pieces as come; O(1) a frame whatever the length."""
+    before: np.ndarray | None = None
+    for piece in counts:
+        recent = piece if before is None else np.concatenate([before, piece])
+        total = np.cumsum(recent, axis=0, dtype=np.int64)
+        sums = total[length - 1 :].copy()
+        sums[1:] -= total[: max(len(total) - length, 0)]
+        before = recent[max(len(recent) - length + 1, 0) :]
+        if len(sums):
+            yield sums
+
+
+def joint_entropy(counts: Int[np.ndarray, "frames levels2"]) -> Float[np.ndarray, "frames"]:
+    """H = −Σ P ln P with P = counts / Σ counts (Eq. 2), in nats: 0 to ln B². Nothing counted: 0."""
+    total = np.maximum(counts.sum(axis=1), 1).astype(np.float64)
+    entropy = np.log(total) - xlogy(counts, counts).sum(axis=1) / total
+    return np.asarray(np.maximum(entropy, 0.0))

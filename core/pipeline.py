@@ -1,0 +1,125 @@
+"""The method in order: from vertices to an analysis, from an analysis to segments. Arithmetic is elsewhere."""
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from core.analysis import Analysis
+from core.animation import Animation
+from core.basis import features
+from core.body import Body
+from core.codes import normaliser
+from core.document import Notice, Source
+from core.energy import energy_curve, window_frames
+from core.errors import InvalidModel
+from core.keyframes import local_maxima
+from core.methods import METHODS
+from core.parameters import ALGORITHM, Parameters
+from core.peak_strain import peak_strain
+from core.progress import Progress, ignore
+from core.rest import rest_shape
+from core.segmentation import Segmentation, in_order_of_appearance
+from core.survey import Survey, survey
+
+CODES_BYTES = 256 * 2**20
+"""Memory for the codes of all strains; where they do not fit, strain is computed twice."""
+
+
+def analyse(
+    animation: Animation,
+    parameters: Parameters | None = None,
+    *,
+    threads: int = 1,
+    progress: Progress = ignore,
+    memory_bytes: int = CODES_BYTES,
+) -> Analysis:
+    """Everything that needs the vertices. Memory does not grow with the frames, but for the results themselves.
+
+    Raises `InvalidModel`: `no-motion` below two frames, `degenerate-mesh` where no triangle has area at rest,
+    `non-finite-data` naming frame and vertex. The same bytes for any number of threads.
+    """
+    parameters = parameters or Parameters()
+    if animation.frames < 2:
+        raise InvalidModel("no-motion", "The take has a single frame: nothing moves. Choose a take with a motion.")
+    with threadpool_limits(1):
+        rest = rest_shape(animation, parameters.rest)
+        body, notices = Body.of(rest, animation.triangles, parameters)
+        take = survey(animation, body, threads=threads, progress=progress, memory_bytes=memory_bytes)
+        if not take.strains and take.bends and len(animation.triangles):
+            body = body.by_pairs()
+            take = survey(animation, body, threads=threads, progress=progress, memory_bytes=memory_bytes)
+        scale = normaliser(parameters.normalize, take.surveyor.coding, take.histogram, take.largest, take.strains)
+        length = window_frames(parameters.energy, parameters.window_seconds, animation.frame_rate)
+        bins = take.bins(scale, parameters.bins, threads, progress)
+        energy = energy_curve(bins, animation.frames, length, parameters.bins, threads)
+        peaks = local_maxima(energy)
+        has_mesh = body.patches.patches > 0
+        return Analysis(
+            frames=animation.frames,
+            frame_rate=animation.frame_rate,
+            source=_source(animation),
+            heavy=parameters.heavy(),
+            energy=energy,
+            peaks=peaks,
+            peak_strain=peak_strain(animation, body, peaks, scale, threads, progress),
+            features=features(take.surveyor.projections, take.described, (has_mesh and take.strains, take.bends)),
+            strain_scale=scale,
+            notices=animation.notices + notices + _said(animation, take, length),
+        )
+
+
+def segment(
+    animation: Animation,
+    parameters: Parameters | None = None,
+    *,
+    threads: int = 1,
+    progress: Progress = ignore,
+    memory_bytes: int = CODES_BYTES,
+) -> Segmentation:
+    """The motions of an animation: `analyse`, then `cut`."""
+    parameters = parameters or Parameters()
+    analysis = analyse(animation, parameters, threads=threads, progress=progress, memory_bytes=memory_bytes)
+    progress("cut", 0.0)
+    return cut(analysis, parameters)
+
+
+def cut(analysis: Analysis, parameters: Parameters) -> Segmentation:
+    """The segments of an analysed take, by the method the parameters name. No vertices are touched."""
+    found = METHODS[parameters.method](analysis, parameters)
+    labels = in_order_of_appearance(found.labels)
+    changes = np.count_nonzero(np.diff(labels))
+    return Segmentation(
+        method=parameters.method,
+        algorithm=ALGORITHM,
+        parameters=parameters.model_dump(),
+        source=analysis.source,
+        frame_rate=analysis.frame_rate,
+        labels=labels,
+        energy=analysis.energy,
+        key_frames=found.key_frames,
+        confidence=np.ones(changes) if found.confidence is None else found.confidence,
+        scores=found.scores,
+        notices=analysis.notices + found.notices,
+    )
+
+
+def _source(animation: Animation) -> Source:
+    take = animation.take
+    return Source(take=take.index, name=take.name, fps=animation.frame_rate, start_seconds=animation.start_seconds)
+
+
+def _said(animation: Animation, take: Survey, length: int) -> tuple[Notice, ...]:
+    """What must be said of a take that cannot be cut as usual."""
+    said = []
+    if not take.strains and not take.bends:
+        detail = "The body moves as one rigid piece: nothing deforms, so the take is one segment."
+        said.append(Notice(code="no-deformation", detail=detail))
+    elif len(animation.triangles) and take.surveyor.body.patches.patches == 0:
+        detail = "The triangles of this mesh do not strain, so the energy curve is of distances between its points."
+        said.append(Notice(code="no-strain", detail=detail))
+    if animation.frames < 2 * length:
+        detail = (
+            f"The take has {animation.frames} frames and the energy curve needs two windows of {length}: it is empty."
+            " Send a smaller window_seconds."
+        )
+        said.append(Notice(code="shorter-than-windows", detail=detail))
+    return tuple(said)
