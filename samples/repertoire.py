@@ -415,3 +415,11 @@ MOTIONS = {
         ARM_CIRCLES, STRETCH, LOOK_AROUND, BOW, DRINK, TURN, SWAY, TWIST,
     )
 }  # fmt: skip
+
+T_POSE = Motion(
+    "t-pose",
+    4.0,
+    {"upper_arm side": ((0, 80),), "forearm flex": ((0, -12),), "thigh side": ((0, 2),)},
+    variation=0.02,
+)
+STILL = Motion("still", 4.0, {"hips side": ((0, 0.6), (0.5, -0.6)), "spine side": ((0, -0.6), (0.5, 0.6))})

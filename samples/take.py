@@ -7,7 +7,7 @@ import numpy as np
 from jaxtyping import Float
 
 from samples.ground import feet_to_ground, root
-from samples.motions import Course, Motion
+from samples.motions import DRIVES, Course, Motion
 from samples.skeleton import HUMAN, JOINTS, quaternions
 
 RATE = 30.0
@@ -18,11 +18,15 @@ BREATH = 1.3  # degrees of the chest
 
 @dataclass(frozen=True)
 class Part:
-    """A motion and how often it is repeated; the last repetition may be cut short by `frames`."""
+    """A motion, and the frames at which its repetitions end; the last of them is whole."""
 
     motion: Motion
-    repetitions: int
-    label: str = ""
+    ends: Float[np.ndarray, "repetitions"]
+
+    @property
+    def frames(self) -> int:
+        """How long the part is."""
+        return round(float(self.ends[-1]))
 
 
 @dataclass(frozen=True)
@@ -40,6 +44,14 @@ class Truth:
 
 
 @dataclass(frozen=True)
+class Sample:
+    """A GLB, and what is performed in it."""
+
+    glb: bytes
+    truth: Truth
+
+
+@dataclass(frozen=True)
 class Take:
     """A performed take: the root's place, the rotation of every joint in its parent, and the truth."""
 
@@ -53,26 +65,23 @@ class Take:
         return np.arange(len(self.places)) / RATE
 
 
-def perform(parts: Sequence[Part], seed: int, frames: int | None = None) -> Take:
-    """The take of these parts. Each begins where its first repetition does, in the middle of a cross-fade of
-    half a second; the take ends with its last part, or at `frames` where that is sooner.
+def perform(parts: Sequence[Part], random: np.random.Generator) -> Take:
+    """The take of these parts. Each begins where its first repetition does: in the middle of a cross-fade of half
+    a second.
     """
-    random = np.random.default_rng(seed)
-    ends = [part.motion.ends(part.repetitions, RATE, random) for part in parts]
-    cuts = np.concatenate([[0], np.cumsum([round(e[-1]) for e in ends])])
-    course = _empty(int(cuts[-1]))
-    for part, part_ends, start, end in zip(parts, ends, cuts, cuts[1:], strict=False):
-        first, last = max(start - FADE, 0), min(end + FADE, cuts[-1])
-        clip = part.motion.perform(np.arange(first, last) - float(start), part_ends, random)
-        share = _fade(np.arange(first, last), start, end, cuts[-1])
+    cuts = np.concatenate([[0], np.cumsum([part.frames for part in parts])]).tolist()
+    length = cuts[-1]
+    course = Course(np.zeros((length, JOINTS, 3)), np.zeros((length, len(DRIVES))))
+    for part, start, end in zip(parts, cuts, cuts[1:], strict=False):
+        first, last = max(start - FADE, 0), min(end + FADE, length)
+        frames = np.arange(first, last)
+        clip = part.motion.perform(frames - float(start), part.ends, random)
+        share = _fade(frames, start, end, length)
         course.angles[first:last] += share[:, None, None] * clip.angles
         course.drives[first:last] += share[:, None] * clip.drives
-    cuts = np.minimum(cuts, frames or cuts[-1])
-    course = Course(course.angles[: cuts[-1]], course.drives[: cuts[-1]])
-    course.angles[:] += _wander(len(course.angles), random)
-    labels = [part.label or part.motion.name for part in parts]
-    spans = zip(labels, cuts.tolist(), cuts[1:].tolist(), strict=False)
-    return _record(course, Truth(RATE, int(cuts[-1]), tuple(span for span in spans if span[1] < span[2])))
+    course.angles[:] += _wander(length, random)
+    names = [part.motion.name for part in parts]
+    return _record(course, Truth(RATE, length, tuple(zip(names, cuts, cuts[1:], strict=False))))
 
 
 def _record(course: Course, truth: Truth) -> Take:
@@ -83,10 +92,6 @@ def _record(course: Course, truth: Truth) -> Take:
     turned = np.stack([cos, none, sin, none, none + 1, none, -sin, none, cos], axis=-1).reshape(-1, 3, 3)
     rotations = [quaternions(turned @ r if joint == 0 else r) for joint, r in enumerate(local)]
     return Take(np.stack(rotations), places, truth)
-
-
-def _empty(frames: int) -> Course:
-    return Course(np.zeros((frames, JOINTS, 3)), np.zeros((frames, 4)))
 
 
 def _fade(frames: np.ndarray, start: int, end: int, length: int) -> Float[np.ndarray, "frames"]:
