@@ -1,0 +1,20 @@
+"""How many bytes may still be decoded."""
+
+from core.limits import Limits
+
+
+class Budget:
+    """Counts what is decoded, every use of it, before it is allocated.
+
+    One small view can be referenced a hundred thousand times, and an accessor without data is all zeros of any
+    number: the size of a file says nothing of what it unfolds to.
+    """
+
+    def __init__(self, limits: Limits) -> None:
+        self._limits = limits
+        self.spent = 0
+
+    def spend(self, size: int) -> None:
+        """Count `size` more bytes; raises `LimitExceeded` where that is too much."""
+        self.spent += size
+        self._limits.check("max_decoded_bytes", self.spent)

@@ -1,0 +1,59 @@
+"""The rate that a clip was made at, told from the times of its keys. Light: no NumPy."""
+
+from collections.abc import Sequence
+from itertools import pairwise
+from statistics import median
+
+KNOWN = (23.976, 24.0, 25.0, 29.97, 30.0, 48.0, 50.0, 59.94, 60.0, 100.0, 120.0, 240.0)
+"""Frames per second that people work at."""
+
+ASSUMED = 30.0
+"""Where the keys do not tell."""
+
+NEAR = 0.015
+"""A measured rate may be off by this share: keys are float32, or were rounded to milliseconds."""
+
+WHOLE = 0.05
+"""Frames by which a key may miss its frame, for the same reasons."""
+
+
+def snapped(rate: float) -> float | None:
+    """The known rate that is nearest to `rate`, if it is within 1.5 % of it."""
+    nearest = min(KNOWN, key=lambda known: abs(known - rate))
+    return nearest if abs(nearest - rate) <= NEAR * nearest else None
+
+
+def key_rate(times: Sequence[float]) -> float | None:
+    """Frames per second of keys at `times` (seconds, not decreasing), or None where they do not tell.
+
+    A key on every frame: one over the usual distance. Sparse keys: the lowest known rate that has all of them on
+    whole frames, unless two of the basic rates have.
+    """
+    steps = [b - a for a, b in pairwise(times) if b > a]
+    if not steps:
+        return None
+    span, usual = times[-1] - times[0], median(steps)
+    # float32 times of a long session are too coarse for one step, but not for the mean of even ones.
+    even = abs(span / usual - len(steps)) <= 0.02 * len(steps)
+    return snapped(len(steps) / span if even else 1 / usual) or _rate_of_sparse_keys(times)
+
+
+def _rate_of_sparse_keys(times: Sequence[float]) -> float | None:
+    fits = [rate for rate in KNOWN if all(_on_a_frame((time - times[0]) * rate) for time in times)]
+    # Keys at every half second are on frames of 24, 25 and 30 alike: that tells nothing.
+    basic = [rate for rate in fits if rate <= ASSUMED]
+    return fits[0] if fits and len(basic) <= 1 else None
+
+
+def _on_a_frame(frames: float) -> bool:
+    return abs(frames - round(frames)) <= WHOLE
+
+
+def frame_count(duration: float, rate: float) -> float:
+    """Frames of a clip of `duration` seconds, its first at 0: floor(duration · rate + 1e-4) + 1.
+
+    Keys are float32, so 3.33333325 s · 30 = 99.9999976 must still be 101 frames. A float that may be infinite:
+    compare it with a limit before making an integer of it.
+    """
+    frames = duration * rate + 1e-4
+    return frames // 1 + 1

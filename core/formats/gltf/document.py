@@ -1,0 +1,84 @@
+"""A glTF as the readers of its parts see it: the lists of its JSON, its limits, and what was noted on the way."""
+
+from collections.abc import Mapping
+from functools import cached_property
+
+from core.errors import InvalidModel
+from core.formats.budget import Budget
+from core.formats.gltf.container import open_container
+from core.formats.gltf.entry import Entry
+from core.formats.notices import Notices
+from core.limits import Limits
+
+HARMLESS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_", "KHR_lights_", "EXT_lights_", "KHR_xmp")
+"""Beginnings of the names of extensions that change no vertex: images and materials are never read."""
+
+READ = {"KHR_mesh_quantization", "KHR_animation_pointer", "KHR_node_visibility", "KHR_materials_variants"}
+
+COMPRESSED = {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}
+
+DECOMPRESS = "Decompress it first: gltf-transform copy in.glb out.glb"
+
+
+class Document:
+    """An opened glTF. `data` is the file itself, `parts` what was sent beside it, by name."""
+
+    def __init__(self, data: memoryview, parts: Mapping[str, memoryview], limits: Limits) -> None:
+        self.notices = Notices()
+        self.limits = limits
+        self.budget = Budget(limits)
+        self.parts = parts
+        self.root, self.binary, self.is_glb = open_container(data, limits, self.notices)
+        self._check_extensions()
+
+    @cached_property
+    def nodes(self) -> list[Entry]:
+        """All nodes, of any scene."""
+        self.limits.check("max_nodes", len(self.root.values("nodes")))
+        return self.root.entries("nodes")
+
+    @cached_property
+    def meshes(self) -> list[Entry]:
+        """All meshes."""
+        return self.root.entries("meshes")
+
+    @cached_property
+    def skins(self) -> list[Entry]:
+        """All skins."""
+        return self.root.entries("skins")
+
+    @cached_property
+    def animations(self) -> list[Entry]:
+        """All animations, the takes."""
+        self.limits.check("max_takes", len(self.root.values("animations")))
+        return self.root.entries("animations")
+
+    @cached_property
+    def accessors(self) -> list[Entry]:
+        """All accessors."""
+        return self.root.entries("accessors")
+
+    @cached_property
+    def views(self) -> list[Entry]:
+        """All buffer views."""
+        return self.root.entries("bufferViews")
+
+    @cached_property
+    def buffers(self) -> list[Entry]:
+        """All buffers."""
+        return self.root.entries("buffers")
+
+    def _check_extensions(self) -> None:
+        for place, name in enumerate(self.root.values("extensionsRequired")):
+            if name not in READ and not (isinstance(name, str) and name.startswith(HARMLESS)):
+                raise unsupported(name if isinstance(name, str) else "?", f"/extensionsRequired/{place}")
+
+
+def unsupported(name: str, pointer: str) -> InvalidModel:
+    """The refusal of an extension, with what to do about it."""
+    advice = DECOMPRESS if name in COMPRESSED else "Export the file without it"
+    return InvalidModel(
+        "unsupported-extension",
+        f"The file needs the extension {name[:80]!r}, not read here. {advice}.",
+        pointer=pointer,
+    )

@@ -1,0 +1,41 @@
+"""Which of the file's animations is meant, and how long it is."""
+
+from core.errors import InvalidModel
+from core.formats.gltf.accessors import Accessors
+from core.formats.gltf.channels import Channel, read_channels
+from core.formats.gltf.document import Document
+from core.formats.takes import choose_take, take_name
+
+
+def choose_animation(document: Document, accessors: Accessors, wanted: str | int) -> tuple[int, str, list[Channel]]:
+    """The chosen animation's place, name and channels; the longest, the first on ties, unless one is named.
+
+    Raises `no-animation` saying what the file has instead, or `ParameterError` for a take that is not there.
+    """
+    animations = document.animations
+    if not animations:
+        raise InvalidModel(
+            "no-animation",
+            f"Nothing is animated in the file; it has {len(document.meshes)} meshes, {len(document.skins)} skins and "
+            f"{len(document.nodes)} nodes. Export it with its animations.",
+        )
+    names = take_names(document)
+    place = choose_take(names, wanted)
+    if place is None:
+        lengths = [last_key(accessors, read_channels(document, accessors, entry)) for entry in animations]
+        place = max(range(len(animations)), key=lengths.__getitem__)
+    channels = read_channels(document, accessors, animations[place])
+    if not channels:
+        raise InvalidModel("no-animation", f"Take {names[place]!r} moves nothing.", pointer=animations[place].pointer)
+    return place, names[place], channels
+
+
+def take_names(document: Document) -> list[str]:
+    """The names of all takes."""
+    return [take_name(entry.value.get("name"), place) for place, entry in enumerate(document.animations)]
+
+
+def last_key(accessors: Accessors, channels: list[Channel]) -> float:
+    """Seconds of the last key, which is how long a take is; -1 where nothing moves."""
+    inputs = {channel.input.index: channel.input for channel in channels}
+    return max((accessors.last(layout) for layout in inputs.values()), default=-1.0)

@@ -1,0 +1,186 @@
+"""Vertex sequences: an NPZ of `vertices` (F, V, 3) and `triangles` (T, 3)."""
+
+import re
+import zlib
+from collections.abc import Callable
+from typing import BinaryIO, cast
+
+import numpy as np
+from jaxtyping import Int, Shaped
+
+from core.animation import Animation, Take
+from core.errors import InvalidModel
+from core.formats.archive import Archive, malformed
+from core.formats.buffer_file import BufferFile
+from core.formats.frame_rate import ASSUMED, frame_count
+from core.formats.notices import Notices
+from core.formats.npy import NpyHeader
+from core.formats.vertex_sequence import VertexSequence, finite
+from core.limits import Limits
+from core.parameters import Parameters
+
+SPELLINGS = {
+    "vertices": ("vertices", "verts"),
+    "triangles": ("triangles", "faces"),
+    "frame_rate": ("frame_rate", "fps"),
+    "rest": ("rest",),
+}
+BODY_MODEL = {"poses", "betas", "trans", "body_pose", "global_orient"}
+ONE_FRAME = re.compile(r"(frame|vertices|verts)_?\d+")
+PIECE = 2**24
+
+
+def read_npz(
+    data: memoryview, parameters: Parameters, limits: Limits, scratch: Callable[[int], memoryview]
+) -> Animation:
+    """The animation of an NPZ. Stored arrays are used where they lie, deflated ones inflated into `scratch` once.
+
+    Raises `BrokenContainer`, `LimitExceeded`, or `InvalidModel`: `wrong-shape`, `unsupported-dtype`,
+    `index-out-of-range`, `no-motion`, `varying-topology`, `non-finite-data`.
+    """
+    archive = Archive(cast("BinaryIO", BufferFile(data)), limits)
+    notices = Notices()
+    names = spelled(archive, notices)
+    headers = {what: archive.header(name) for what, name in names.items()}
+    check_shapes(headers, names, limits)
+
+    def array(what: str) -> Shaped[np.ndarray, "..."]:
+        return _array(archive, names[what], headers[what], data, scratch)
+
+    triangles = _triangles(array("triangles"), headers["vertices"].shape[1])
+    stored_rate = _frame_rate(array("frame_rate")) if "frame_rate" in names else None
+    rest = array("rest").astype(np.float32) if "rest" in names else None
+    if rest is not None and not finite(rest):
+        raise InvalidModel("non-finite-data", "The rest shape holds numbers that are not finite.", pointer="/rest")
+    frames_stored = headers["vertices"].shape[0]
+    rate, fps = _rates(parameters, stored_rate, notices)
+    duration = (frames_stored - 1) / rate
+    limits.check("max_seconds", duration, "Cut the sequence")
+    frames = frame_count(duration, fps)
+    limits.check("max_frames", frames, "Send a lower fps or cut the sequence")
+    limits.check("max_triangle_frames", frames * len(triangles), "Send a lower fps or decimate the mesh")
+    return Animation(
+        vertices=VertexSequence(array("vertices"), rate / fps),
+        vertex_count=headers["vertices"].shape[1],
+        triangles=triangles,
+        rest=rest,
+        frames=int(frames),
+        frame_rate=fps,
+        take=Take(0, "vertices", duration, int(frames), fps),
+        notices=notices.told(),
+    )
+
+
+def spelled(archive: Archive, notices: Notices) -> dict[str, str]:
+    """Which member is which array; raises where vertices or triangles are missing, saying what the file is instead."""
+    members = [name for name, info in archive.members.items() if info.filename.endswith(".npy")]
+    found = {what: name for what, spellings in SPELLINGS.items() for name in spellings[::-1] if name in members}
+    missing = [what for what in ("vertices", "triangles") if what not in found]
+    if missing and BODY_MODEL & set(members):
+        raise InvalidModel(
+            "body-model-parameters",
+            "The file holds parameters of a body model (poses, betas), not a surface. Run the model on them and save "
+            "its vertices (F, V, 3) and faces (T, 3) with numpy.savez.",
+        )
+    if "vertices" in missing and any(ONE_FRAME.fullmatch(name) for name in members):
+        raise InvalidModel(
+            "varying-topology",
+            "Every frame is an array of its own. All frames must have the same vertices, in one array (F, V, 3).",
+        )
+    if missing:
+        raise InvalidModel(
+            "wrong-shape",
+            f"The file needs arrays `vertices` (F, V, 3) and `triangles` (T, 3); {missing[0]} is missing.",
+        )
+    extra = [name for name in archive.members if name not in found.values()]
+    if extra:
+        notices.add("members-ignored", f"Not used: {', '.join(name[:40] for name in extra)}.")
+    return found
+
+
+def check_shapes(headers: dict[str, NpyHeader], names: dict[str, str], limits: Limits) -> None:
+    """Raise `wrong-shape` or `no-motion` by the headers alone, and `LimitExceeded` before anything is read."""
+    frames, vertices, three = (*headers["vertices"].shape, 0, 0, 0)[:3]
+    expected = {"vertices": "(F, V, 3)", "triangles": "(T, 3)", "rest": f"({vertices}, 3)", "frame_rate": "()"}
+    fits = {
+        "vertices": len(headers["vertices"].shape) == 3 and three == 3 and vertices > 0,
+        "triangles": len(headers["triangles"].shape) == 2 and headers["triangles"].shape[1] == 3,
+        "rest": "rest" not in headers or headers["rest"].shape == (vertices, 3),
+        "frame_rate": "frame_rate" not in headers or headers["frame_rate"].shape in ((), (1,)),
+    }
+    fits["triangles"] = fits["triangles"] and headers["triangles"].shape[0] > 0
+    for what, header in headers.items():
+        if not fits[what]:
+            raise InvalidModel(
+                "wrong-shape",
+                f"{names[what]} is {header.shape}; {expected[what]} is expected, none of them 0.",
+                pointer=f"/{names[what]}",
+                got=str(header.shape),
+                expected=expected[what],
+            )
+    if frames == 0:
+        raise InvalidModel("no-motion", "The sequence has no frames; a motion needs two.", pointer="/vertices")
+    limits.check("max_vertices", vertices)
+    limits.check("max_triangles", headers["triangles"].shape[0])
+
+
+def _array(
+    archive: Archive, name: str, header: NpyHeader, data: memoryview, scratch: Callable[[int], memoryview]
+) -> Shaped[np.ndarray, "..."]:
+    if archive.is_stored(name):
+        start, stop = archive.place(name)
+        piece = data[start:stop]
+        _check_sum(piece, archive.members[name].CRC, name)
+    else:
+        piece = _inflated(archive, name, scratch(archive.members[name].file_size))
+    return np.ndarray(
+        header.shape, np.dtype(header.dtype), piece, header.bytes, order="F" if header.fortran_order else "C"
+    )
+
+
+def _check_sum(piece: memoryview, expected: int, name: str) -> None:
+    check = 0
+    for start in range(0, len(piece), PIECE):
+        check = zlib.crc32(piece[start : start + PIECE], check)
+    if check != expected:
+        raise malformed(f"has a wrong checksum for {name!r}: it is damaged")
+
+
+def _inflated(archive: Archive, name: str, room: memoryview) -> memoryview:
+    with archive.inflate(name) as file:
+        filled = 0
+        while filled < len(room) and (count := file.readinto(room[filled : filled + PIECE])):  # type: ignore[attr-defined]
+            filled += count
+        if filled < len(room) or file.read(1):
+            raise malformed(f"has another size of {name!r} than it states")
+    return room
+
+
+def _triangles(stored: Shaped[np.ndarray, "T 3"], vertices: int) -> Int[np.ndarray, "T 3"]:
+    if stored.dtype.kind == "f" and not (np.isfinite(stored).all() and (stored == np.floor(stored)).all()):
+        raise InvalidModel("unsupported-dtype", "Triangles must be whole numbers.", pointer="/triangles")
+    if not ((stored >= 0) & (stored < vertices)).all():
+        raise InvalidModel(
+            "index-out-of-range",
+            f"Triangles name vertices from {stored.min():.0f} to {stored.max():.0f}, of {vertices}.",
+            pointer="/triangles",
+        )
+    return np.ascontiguousarray(stored, np.int64)
+
+
+def _frame_rate(stored: Shaped[np.ndarray, "..."]) -> float:
+    rate = float(stored.reshape(-1)[0])
+    if not 0 < rate <= 1e6:
+        raise InvalidModel(
+            "invalid-frame-rate", f"The frame rate is {rate:g}; frames per second are expected.", pointer="/frame_rate"
+        )
+    return rate
+
+
+def _rates(parameters: Parameters, stored: float | None, notices: Notices) -> tuple[float, float]:
+    """The rate of the frames in the file, and the one that is drawn."""
+    if stored is None and parameters.fps == "source":
+        notices.add("frame-rate-assumed", f"The file tells no frame rate; {ASSUMED:g} a second was taken.")
+        return ASSUMED, ASSUMED
+    fps = stored or ASSUMED if parameters.fps == "source" else float(parameters.fps)
+    return stored or fps, fps

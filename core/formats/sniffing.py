@@ -1,0 +1,51 @@
+"""What kind of file it is, by its first bytes: names and content types lie. Light: no NumPy."""
+
+import codecs
+from typing import Literal
+
+from core.errors import UnsupportedMedia
+
+Format = Literal["glb", "gltf", "npz"]
+
+SNIFFED = 256
+"""Bytes that are enough to tell."""
+
+READ = "glTF 2.0 (.glb, .gltf) and NumPy archives (.npz)"
+
+OTHERS = {
+    b"version https://git-lfs": "a Git LFS pointer, not the file it stands for; fetch it with git lfs pull",
+    b"\x89PNG": "a PNG image",
+    b"\xff\xd8\xff": "a JPEG image",
+    b"Kaydara FBX": "an FBX file; convert it to GLB, for instance with Blender",
+    b"HIERARCHY": "a BVH file; convert it to GLB, for instance with Blender",
+    b"PXR-USDC": "a USD file; convert it to GLB, for instance with Blender",
+    b"BLENDER": "a Blender file; export it as GLB",
+    b"Ogawa": "an Alembic file; export it as GLB",
+    b"\x93NUMPY": "a single NumPy array; save vertices and triangles together with numpy.savez",
+    b"\x1f\x8b": "a gzip file; unpack it",
+    b"ply": "a PLY file, a shape and not an animation",
+    b"%PDF": "a PDF document",
+}
+
+WIDE = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE, b"{\0", b"\0{", b"[\0", b"\0[")
+"""How JSON begins in UTF-16, which glTF does not allow: opened, and refused as malformed."""
+
+
+def sniff(head: bytes) -> Format:
+    """The format of a file that begins with `head`; raises `UnsupportedMedia` naming what it is instead."""
+    if head.startswith(b"glTF"):
+        return "glb"
+    if head.startswith(b"PK"):
+        return "npz"
+    text = head.removeprefix(codecs.BOM_UTF8).lstrip(b" \t\r\n")
+    if text.startswith((b"{", b"[")) or head.startswith(WIDE):
+        return "gltf"
+    raise UnsupportedMedia("unsupported-media-type", f"The file is {_described(head, text)}. Read here are {READ}.")
+
+
+def _described(head: bytes, text: bytes) -> str:
+    if not head:
+        return "empty"
+    if text[:1] == b"<":
+        return "HTML or XML, perhaps a page with an error message instead of the file"
+    return next((what for magic, what in OTHERS.items() if head.startswith(magic)), "of a kind that is not known")
