@@ -1,0 +1,77 @@
+"""What the page plays of a take, made in one call."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from mmap import mmap
+from typing import Any
+
+import numpy as np
+
+from core.analysis import Analysis
+from core.animation import Animation
+from core.formats.playback.plain_copy import plain_copy
+from core.formats.playback.strain_blocks import Patches, patches, strain_blocks
+from core.formats.playback.vertex_blocks import shown_mesh, vertex_blocks
+from core.formats.read import main_part
+from core.formats.sniffing import SNIFFED, sniff
+from core.progress import Progress, ignore
+from core.rest import rest_shape
+
+UNSTRAINED = {"no-strain", "no-deformation"}
+"""Notices of an analysis whose surface does not strain: there is nothing to colour."""
+
+
+@dataclass(frozen=True)
+class Playback:
+    """`document` is what the service answers, without addresses. The streams can be read once, in any order.
+
+    They draw from the animation and from the upload, so both must still be there.
+    """
+
+    document: dict[str, Any]
+    model: Iterator[bytes]
+    strain: Iterator[bytes] | None
+
+
+def playback(
+    animation: Animation,
+    parts: Mapping[str, bytes | memoryview | mmap],
+    analysis: Analysis,
+    *,
+    threads: int = 1,
+    progress: Progress = ignore,
+) -> Playback:
+    """The model and its strain, to be written as they are read. `progress` hears the stage "figure" while they are."""
+    views = {name: memoryview(part).toreadonly() for name, part in parts.items()}
+    surface = _patches(animation, analysis)
+    of_vertex = np.zeros(animation.vertex_count, np.int64) if surface is None else surface.of_vertex
+    shown = {"vertices": animation.vertex_count, "triangles": len(animation.triangles)}
+    kind = "vertices" if sniff(bytes(views[main_part(views)][:SNIFFED])) == "npz" else "gltf"
+    if kind == "gltf":
+        model = plain_copy(views, animation.take.index, of_vertex)
+    else:
+        mesh = shown_mesh(animation)
+        model = vertex_blocks(animation, mesh, of_vertex, threads=threads, progress=progress)
+        shown = {"vertices": len(mesh.vertices), "triangles": len(mesh.triangles)}
+    document = {
+        "kind": kind,
+        "frames": animation.frames,
+        "frame_rate": animation.frame_rate,
+        "start_seconds": animation.start_seconds,
+        **shown,
+        "skeleton": len(animation.triangles) == 0,
+        "patches": 0 if surface is None else surface.means.patches,
+    }
+    strain = None
+    if surface is not None:
+        strain = strain_blocks(animation, surface, analysis.strain_scale, threads=threads, progress=progress)
+    return Playback(document, model, strain)
+
+
+def _patches(animation: Animation, analysis: Analysis) -> Patches | None:
+    """The patches of a surface that strains."""
+    if len(animation.triangles) == 0 or UNSTRAINED & {notice.code for notice in analysis.notices}:
+        return None
+    heavy = analysis.heavy
+    rest = rest_shape(animation, heavy["rest"])
+    return patches(rest, animation.triangles, animation.frames, heavy["strain"], heavy["scale_invariant"])
