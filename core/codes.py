@@ -40,7 +40,7 @@ class Coding:
     def decode(self, position: float) -> float:
         """The value at a position between codes: `decode(c)` is the least value of code c, c ≥ 1; `decode(0)` is 0."""
         if position < 1:
-            return position * self.decode(1)
+            return position * self.decode(1.0)
         whole = int(position)
         low, high = (float(np.int32((LOWEST + code) << SHIFT).view(np.float32)) for code in (whole, whole + 1))
         return (low + (high - low) * (position - whole)) / self.gain

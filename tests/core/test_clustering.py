@@ -1,0 +1,60 @@
+"""Key-frames into motions."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from core.clustering import cluster, cluster_unasked, distinct
+
+
+def clouds(centres, each=8, spread=0.05):
+    """Points about some centres on a line in 30 dimensions, and the centre of each."""
+    draw = np.random.default_rng(6)
+    truth = np.repeat(np.arange(len(centres)), each)
+    return (np.outer(np.asarray(centres)[truth], np.ones(30)) + spread * draw.normal(size=(len(truth), 30))), truth
+
+
+def same_grouping(a, b):
+    """Whether two labellings differ in names alone."""
+    return len(set(zip(a.tolist(), b.tolist(), strict=True))) == len(set(a.tolist())) == len(set(b.tolist()))
+
+
+def test_clouds_are_found():
+    """With K given, and the same labels every time."""
+    points, truth = clouds([0, 1, 2.5])
+    assert same_grouping(cluster(points, 3, 0).labels, truth)
+    np.testing.assert_array_equal(cluster(points, 3, 0).labels, cluster(points, 3, 0).labels)
+
+
+@pytest.mark.parametrize("centres", [[0, 1], [0, 1, 2.5], [0, 1, 2.5, 4, 6]])
+def test_k_unasked_is_the_number_of_clouds(centres):
+    """And the cost left is told for every K tried, 1 for one motion."""
+    points, truth = clouds(centres)
+    found, scores = cluster_unasked(points, 0)
+    assert same_grouping(found.labels, truth)
+    assert (scores[0].motions, scores[0].score) == (1, 1.0)
+    assert all(a.score >= b.score for a, b in itertools.pairwise(scores))
+
+
+def test_points_without_structure_are_one_motion():
+    """No grouping of a single cloud is convincing."""
+    points, _ = clouds([0], each=40, spread=1.0)
+    assert set(cluster_unasked(points, 0)[0].labels.tolist()) == {0}
+
+
+def test_few_points():
+    """One is one motion, two are two, and equal ones are one."""
+    points, _ = clouds([0, 3], each=1)
+    assert cluster_unasked(points[:1], 0)[0].labels.tolist() == [0]
+    assert len(set(cluster_unasked(points, 0)[0].labels.tolist())) == 2
+    assert set(cluster_unasked(points[[0, 0, 0]], 0)[0].labels.tolist()) == {0}
+    assert distinct(points[[0, 0, 1]]) == 2
+
+
+def test_a_point_between_two_centres_belongs_to_neither_clearly():
+    """Its margin is near 0, that of a point at a centre near 1."""
+    points, _ = clouds([0, 1, 0.5], each=6, spread=0.001)
+    margin = cluster(np.concatenate([points[:12], points[12:13]]), 2, 0).margin
+    assert margin[:12].min() > 0.8
+    assert margin[12] < 0.3

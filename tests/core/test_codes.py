@@ -1,0 +1,63 @@
+"""Strain in 16 bits, and the strain that counts as 1."""
+
+import numpy as np
+import pytest
+
+from core.codes import CODES, Coding, normaliser
+
+
+def histogram(coding, values):
+    """How often each code occurs."""
+    return np.bincount(coding.encode(values).ravel(), minlength=CODES)
+
+
+def test_a_code_spells_its_value_to_a_part_in_4096():
+    """Over the whole range, and codes rise with values."""
+    values = np.geomspace(1.001 * 2.0**-12, 15.9, 5000, dtype=np.float32)[None]
+    coding = Coding(1.0)
+    codes = coding.encode(values)[0].astype(int)
+    low = np.array([coding.decode(float(c)) for c in codes])
+    assert (np.diff(codes) >= 0).all()
+    assert (low <= values[0]).all()
+    assert (values[0] <= low * (1 + 1 / 4096)).all()
+
+
+def test_what_is_out_of_range_gets_the_first_and_the_last_code():
+    """Zero is code 0; a thousand is the last."""
+    assert Coding(1.0).encode(np.float32([[0, 1e-9, 1e3, 1e30]])).tolist() == [[0, 0, CODES - 1, CODES - 1]]
+
+
+@pytest.mark.parametrize("size", [1e-6, 0.3, 40.0])
+def test_the_percentile_is_numpys_to_a_ten_thousandth(size):
+    """Whatever the unit of the data is."""
+    values = (size * np.random.default_rng(0).gamma(2.0, size=(300, 400))).astype(np.float32)
+    coding = Coding.around(float(values[:, ::40].max()))
+    found = normaliser("p99.9", coding, histogram(coding, values), values.max(axis=0), strains=True)
+    assert found == pytest.approx(np.percentile(values, 99.9), rel=5e-5)
+
+
+def test_the_percentile_of_equal_values_is_that_value():
+    """All in one code: exact to the code's step."""
+    coding = Coding.around(0.37)
+    values = np.full((5, 7), 0.37, np.float32)
+    assert coding.percentile(histogram(coding, values)) == pytest.approx(0.37, rel=1 / 4096)
+
+
+def test_the_other_rules_of_normalising():
+    """The largest, a number, none; and 1 for noise."""
+    coding, counts, largest = Coding(1.0), np.ones(CODES, int), np.float32([0.2, 0.7])
+    assert normaliser("max", coding, counts, largest, strains=True) == pytest.approx(0.7)
+    assert normaliser(0.25, coding, counts, largest, strains=True) == 0.25
+    assert normaliser("none", coding, counts, largest, strains=True) == 1.0
+    assert normaliser("p99.9", coding, counts, largest, strains=False) == 1.0
+
+
+@pytest.mark.parametrize("levels", [2, 10, 64])
+def test_edges_of_bins_are_in_their_place_to_an_eight_thousandth(levels):
+    """A value is above the i-th edge where it is above i / B of the scale, but for the half step about it."""
+    coding, scale = Coding.around(0.5), 0.31
+    edges = coding.edges(scale, levels)
+    for i, edge in enumerate(edges.tolist(), start=1):
+        at = scale * i / levels
+        around = np.float32([[at * (1 - 1 / 8000), at * (1 + 1 / 8000)]])
+        assert (coding.encode(around) > edge).tolist() == [[False, True]]
