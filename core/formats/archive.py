@@ -1,5 +1,6 @@
 """A zip that was sent to us: its directory is judged before anything in it is opened. Light: no NumPy."""
 
+import math
 import struct
 import zipfile
 import zlib
@@ -15,6 +16,13 @@ MOST_MEMBERS = 16
 LONGEST_DIRECTORY = 2**16
 ENCRYPTED = 1
 END, LOCAL = struct.Struct("<4s4H2LH"), struct.Struct("<4s5H3L2H")
+NUMBER_CODES = {"f2": "e", "f4": "f", "f8": "d"} | {
+    f"{kind}{size}": code if kind == "i" else code.upper()
+    for kind in "iu"
+    for size, code in zip("1248", "bhiq", strict=True)
+}
+"""NumPy's names of numbers, as `struct` calls them."""
+
 ZIP64_FROM = 2**31 - 1
 """Offsets beyond this need the larger records of zip64; in a smaller file they only hide what it holds."""
 
@@ -43,6 +51,15 @@ class Archive:
                 f"has {info.file_size:,} bytes for {name!r}, where its shape {header.shape} needs another number"
             )
         return header
+
+    def number(self, name: str) -> float:
+        """The first number of an array; NaN of an empty one."""
+        header = self.header(name)
+        code = NUMBER_CODES[header.dtype[-2:]]
+        order = ">" if header.dtype.startswith(">") else "<"
+        with self.inflate(name) as file:
+            data = file.read(header.bytes + header.data_bytes)[header.bytes :]
+        return float(struct.unpack_from(order + code, data)[0]) if data else math.nan
 
     @contextmanager
     def inflate(self, name: str) -> Iterator[BinaryIO]:

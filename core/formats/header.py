@@ -1,5 +1,97 @@
-"""What a file says of itself at its beginning. Light: no NumPy."""
+"""What a file says of itself, by its headers alone: what an upload is answered with. Light: no NumPy.
 
-from core.formats.sniffing import sniff
+An estimate that costs milliseconds whatever the file's size; the count of the reader holds. A file that cannot be
+opened at all is refused here already.
+"""
 
-__all__ = ["sniff"]
+from dataclasses import dataclass
+from typing import BinaryIO
+
+from core.formats.archive import Archive
+from core.formats.frame_rate import ASSUMED, frame_count
+from core.formats.gltf.container import CHUNK, HEADER, glb_length, json_chunk_length, parse_root
+from core.formats.gltf.document import check_extensions
+from core.formats.gltf.summary import Clip, clips, size_of_scene
+from core.formats.notices import Notices
+from core.formats.sequence_members import check_shapes, members_by_use
+from core.formats.sniffing import SNIFFED, Format, sniff
+from core.limits import Limits
+
+MOST_JSON = 4 * 2**20
+"""Bytes of JSON that are parsed for a header; a glTF with more is answered with unknown counts."""
+
+MOST_FRAMES = 2**53
+"""What a header's number of frames is cut at; the reader refuses it."""
+
+
+@dataclass(frozen=True)
+class HeaderTake:
+    """One take: an estimate, for the rate of its keys is told by their number alone."""
+
+    index: int
+    name: str
+    duration_seconds: float
+    frames: int
+    frame_rate: float
+
+
+@dataclass(frozen=True)
+class Header:
+    """Format, takes and size of a file; None where the header does not tell."""
+
+    format: Format
+    name: str
+    takes: tuple[HeaderTake, ...] = ()
+    vertices: int | None = None
+    triangles: int | None = None
+
+
+def read_header(file: BinaryIO, name: str, limits: Limits) -> Header:
+    """The header of a seekable file.
+
+    Raises `UnsupportedMedia`, `BrokenContainer`, `LimitExceeded`, or `InvalidModel` for what is already plain.
+    """
+    file.seek(0)
+    kind = sniff(file.read(SNIFFED))
+    if kind == "npz":
+        return _npz_header(file, name, limits)
+    return _gltf_header(file, kind, name, limits)
+
+
+def _gltf_header(file: BinaryIO, kind: Format, name: str, limits: Limits) -> Header:
+    size = file.seek(0, 2)
+    start, length = _json_of_glb(file, size) if kind == "glb" else (0, size)
+    limits.check("max_json_bytes", length, "Send it as a GLB without data in its JSON")
+    if length > MOST_JSON:
+        return Header(kind, name)
+    file.seek(start)
+    root = parse_root(file.read(length), limits)
+    check_extensions(root)
+    found = clips(root)
+    limits.check("max_takes", len(found))
+    vertices, triangles = size_of_scene(root)
+    return Header(kind, name, tuple(_take(place, clip) for place, clip in enumerate(found)), vertices, triangles)
+
+
+def _json_of_glb(file: BinaryIO, size: int) -> tuple[int, int]:
+    file.seek(0)
+    length = glb_length(file.read(HEADER.size), size)
+    start = HEADER.size + CHUNK.size
+    return start, json_chunk_length(file.read(CHUNK.size), length - start)
+
+
+def _take(place: int, clip: Clip) -> HeaderTake:
+    rate = clip.rate or ASSUMED
+    return HeaderTake(place, clip.name, clip.seconds, int(min(frame_count(clip.seconds, rate), MOST_FRAMES)), rate)
+
+
+def _npz_header(file: BinaryIO, name: str, limits: Limits) -> Header:
+    archive = Archive(file, limits)
+    members = members_by_use(archive, Notices())
+    headers = {what: archive.header(member) for what, member in members.items()}
+    check_shapes(headers, members, limits)
+    frames, vertices, _ = headers["vertices"].shape
+    rate = archive.number(members["frame_rate"]) if "frame_rate" in members else ASSUMED
+    rate = rate if 0 < rate < MOST_FRAMES else ASSUMED
+    take = HeaderTake(0, "vertices", (frames - 1) / rate, frames, rate)
+    return Header("npz", name, (take,), vertices, headers["triangles"].shape[0])

@@ -32,10 +32,10 @@ def open_container(data: memoryview, limits: Limits, notices: Notices) -> Contai
     (`unsupported-gltf-version`).
     """
     if data[:4] != MAGIC:
-        root = _parse(data, limits)
+        root = parse_root(data, limits)
         return Container(root, None, is_glb=False)
     text, binary = _chunks(data, notices)
-    return Container(_parse(text, limits), binary, is_glb=True)
+    return Container(parse_root(text, limits), binary, is_glb=True)
 
 
 def glb_length(head: bytes | memoryview, available: int) -> int:
@@ -81,7 +81,8 @@ def _numbers(version: object) -> tuple[int, ...]:
     return tuple(int(part) for part in parts) if len(parts) == 2 and all(p.isdecimal() for p in parts) else ()
 
 
-def _parse(text: memoryview, limits: Limits) -> Entry:
+def parse_root(text: bytes | memoryview, limits: Limits) -> Entry:
+    """The root of the JSON, which must be glTF 2.0."""
     advice = "Send it as a GLB without data in its JSON"
     limits.check("max_json_bytes", len(text), advice)
     root = Entry(parse_object(text), "")

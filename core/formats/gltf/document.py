@@ -29,7 +29,7 @@ class Document:
         self.budget = Budget(limits)
         self.parts = parts
         self.root, self.binary, self.is_glb = open_container(data, limits, self.notices)
-        self._check_extensions()
+        check_extensions(self.root)
 
     @cached_property
     def nodes(self) -> list[Entry]:
@@ -68,10 +68,12 @@ class Document:
         """All buffers."""
         return self.root.entries("buffers")
 
-    def _check_extensions(self) -> None:
-        for place, name in enumerate(self.root.values("extensionsRequired")):
-            if name not in READ and not (isinstance(name, str) and name.startswith(HARMLESS)):
-                raise unsupported(name if isinstance(name, str) else "?", f"/extensionsRequired/{place}")
+
+def check_extensions(root: Entry) -> None:
+    """Raise `unsupported-extension` where the file cannot be understood without one that is not read here."""
+    for place, name in enumerate(root.values("extensionsRequired")):
+        if name not in READ and not (isinstance(name, str) and name.startswith(HARMLESS)):
+            raise unsupported(name if isinstance(name, str) else "?", f"/extensionsRequired/{place}")
 
 
 def unsupported(name: str, pointer: str) -> InvalidModel:

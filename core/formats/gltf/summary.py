@@ -1,0 +1,100 @@
+"""What the JSON of a glTF says without its data: takes, and how large the scene is. Light: no NumPy.
+
+Numbers are taken where they are plain and left out where they are not; what is wrong with them is the reader's to say.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from core.formats.frame_rate import snapped
+from core.formats.gltf.entry import Entry
+from core.formats.takes import take_name
+
+TRIANGLES, FAN = 4, 6
+
+
+@dataclass(frozen=True)
+class Clip:
+    """One animation: seconds to its last key, and the rate of its keys where they are even."""
+
+    name: str
+    seconds: float
+    rate: float | None
+
+
+def clips(root: Entry) -> list[Clip]:
+    """All animations, by the bounds and counts of their samplers' inputs."""
+    accessors = _list(root.value, "accessors")
+    found = []
+    for place, animation in enumerate(_list(root.value, "animations")):
+        inputs = [_keys(accessors, sampler) for sampler in _used_samplers(animation)]
+        seconds = max((last for _, _, last in inputs), default=0.0)
+        keys, first, last = max(inputs, default=(0, 0.0, 0.0))
+        rate = snapped((keys - 1) / (last - first)) if keys > 1 and last > first else None
+        name = take_name(animation.get("name") if isinstance(animation, dict) else None, place)
+        found.append(Clip(name, seconds, rate))
+    return found
+
+
+def size_of_scene(root: Entry) -> tuple[int, int]:
+    """Vertices and triangles of all nodes that have a mesh, in any scene."""
+    accessors, meshes = _list(root.value, "accessors"), _list(root.value, "meshes")
+    sizes = [_size_of_mesh(accessors, mesh) for mesh in meshes]
+    nodes = _list(root.value, "nodes")
+    used = [number for node in nodes if (number := _place(node, "mesh", len(meshes))) is not None]
+    return sum(sizes[number][0] for number in used), sum(sizes[number][1] for number in used)
+
+
+def _size_of_mesh(accessors: list[Any], mesh: Any) -> tuple[int, int]:
+    vertices = triangles = 0
+    for primitive in _list(mesh, "primitives"):
+        mode = _member(primitive, "mode", TRIANGLES)
+        position = _place(_member(primitive, "attributes", None), "POSITION", len(accessors))
+        if position is None or mode not in range(TRIANGLES, FAN + 1):
+            continue
+        indices = _place(primitive, "indices", len(accessors))
+        corners = _count(accessors[position if indices is None else indices])
+        vertices += _count(accessors[position])
+        triangles += corners // 3 if mode == TRIANGLES else max(corners - 2, 0)
+    return vertices, triangles
+
+
+def _used_samplers(animation: Any) -> Iterator[Any]:
+    samplers = _list(animation, "samplers")
+    places = [_place(channel, "sampler", len(samplers)) for channel in _list(animation, "channels")]
+    return (samplers[place] for place in dict.fromkeys(places) if place is not None)
+
+
+def _keys(accessors: list[Any], sampler: Any) -> tuple[int, float, float]:
+    """How many keys there are, the first and the last second."""
+    place = _place(sampler, "input", len(accessors))
+    if place is None:
+        return 0, 0.0, 0.0
+    return _count(accessors[place]), _bound(accessors[place], "min"), _bound(accessors[place], "max")
+
+
+def _bound(accessor: Any, name: str) -> float:
+    bound = _list(accessor, name)[:1]
+    usable = bound and type(bound[0]) in (int, float) and 0 <= bound[0] <= 1e300
+    return float(bound[0]) if usable and math.isfinite(bound[0]) else 0.0
+
+
+def _count(accessor: Any) -> int:
+    count = _member(accessor, "count", 0)
+    return count if type(count) is int and 0 <= count < 2**53 else 0
+
+
+def _place(owner: Any, name: str, count: int) -> int | None:
+    place = _member(owner, name, None)
+    return place if type(place) is int and 0 <= place < count else None
+
+
+def _list(owner: Any, name: str) -> list[Any]:
+    value = _member(owner, name, [])
+    return value if isinstance(value, list) else []
+
+
+def _member(owner: Any, name: str, default: Any) -> Any:
+    return owner.get(name, default) if isinstance(owner, dict) else default

@@ -1,0 +1,94 @@
+"""What an upload is answered with, before anything of it is decoded."""
+
+import io
+import struct
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from core.errors import BrokenContainer, InvalidModel, LimitExceeded, UnsupportedMedia
+from core.formats.header import MOST_JSON, Header, HeaderTake, read_header
+from core.limits import Limits
+
+TWO_TAKES = b"""{"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}, {"mesh": 0}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+ "animations": [
+  {"name": "walk", "channels": [{"sampler": 0, "target": {"node": 0, "path": "scale"}}],
+   "samplers": [{"input": 2, "output": 3}]},
+  {"channels": [{"sampler": 0, "target": {"node": 0, "path": "scale"}}], "samplers": [{"input": 4, "output": 3}]}],
+ "accessors": [{"count": 8}, {"count": 36}, {"count": 25, "min": [0], "max": [1]}, {"count": 25},
+  {"count": 2, "min": [0], "max": [2.5]}]}"""
+
+
+def header(data: bytes, limits: Limits | None = None) -> Header:
+    return read_header(io.BytesIO(data), "model", limits or Limits())
+
+
+def glb(text: bytes) -> bytes:
+    return struct.pack("<4sIIII", b"glTF", 2, 20 + len(text), len(text), 0x4E4F534A) + text
+
+
+def archive(**arrays: object) -> bytes:
+    out = io.BytesIO()
+    np.savez_compressed(out, **arrays)  # type: ignore[arg-type]
+    return out.getvalue()
+
+
+@pytest.mark.parametrize(("data", "kind"), [(TWO_TAKES, "gltf"), (glb(TWO_TAKES), "glb")])
+def test_a_gltf_tells_its_takes_and_its_size(data: bytes, kind: str) -> None:
+    """Every take with its rate and frames, and the vertices and triangles of all instances."""
+    takes = (HeaderTake(0, "walk", 1.0, 25, 24.0), HeaderTake(1, "take 1", 2.5, 76, 30.0))
+    assert header(data) == Header(kind, "model", takes, 16, 24)  # type: ignore[arg-type]
+
+
+def test_an_archive_tells_its_frames_at_its_own_rate() -> None:
+    """Shapes come from the arrays' headers, the rate from its one number."""
+    data = archive(verts=np.zeros((11, 4, 3), ">f8"), faces=np.zeros((2, 3), np.uint8), fps=np.float16(25))
+    assert header(data) == Header("npz", "model", (HeaderTake(0, "vertices", 0.4, 11, 25.0),), 4, 2)
+
+
+def test_much_json_is_not_parsed() -> None:
+    """More than 4 MB of JSON would hold the web process up: its counts are unknown, its container is checked."""
+    assert header(TWO_TAKES.ljust(MOST_JSON + 1)) == Header("gltf", "model", (), None, None)
+
+
+def test_odd_numbers_in_a_header_are_left_out() -> None:
+    """What is no plain number counts as nothing; the reader, not the header, says what is wrong with it."""
+    odd = TWO_TAKES.replace(b'"count": 8', b'"count": true').replace(b'"max": [1]', b'"max": [1e999]')
+    assert header(odd).vertices == 0
+    assert header(odd).takes[0].frames == 1
+
+
+@pytest.mark.parametrize(
+    ("data", "error", "code"),
+    [
+        (b"", UnsupportedMedia, "unsupported-media-type"),
+        (b"<!doctype html>", UnsupportedMedia, "unsupported-media-type"),
+        (b"version https://git-lfs.github.com/spec/v1\n", UnsupportedMedia, "unsupported-media-type"),
+        (glb(TWO_TAKES)[:100], BrokenContainer, "malformed-glb"),
+        (b"{", BrokenContainer, "malformed-json"),
+        (b'{"asset": {"version": "1.0"}}', InvalidModel, "unsupported-gltf-version"),
+        (b'{"asset": {"version": "2.0"}, "extensionsRequired": ["X"]}', InvalidModel, "unsupported-extension"),
+        (b"PK\3\4", BrokenContainer, "malformed-npz"),
+        (archive(vertices=np.zeros((2, 3, 4)), triangles=np.zeros((1, 3), int)), InvalidModel, "wrong-shape"),
+    ],
+)
+def test_what_cannot_be_opened_is_refused_at_once(data: bytes, error: type[Exception], code: str) -> None:
+    """An upload is answered with its problem where the header tells it already."""
+    with pytest.raises(error) as refused:
+        header(data)
+    assert refused.value.code == code  # type: ignore[attr-defined]
+
+
+def test_the_limit_on_json_holds_for_headers() -> None:
+    """A JSON over the limit is refused, not left unknown."""
+    with pytest.raises(LimitExceeded, match="CAESURA_MAX_JSON_BYTES"):
+        header(TWO_TAKES, Limits(max_json_bytes=10))
+
+
+def test_reading_headers_loads_no_numerics() -> None:
+    """The web process reads headers, and must stay small."""
+    script = "import sys, core.formats.header; sys.exit(any(m in sys.modules for m in ('numpy', 'numba', 'scipy')))"
+    subprocess.run([sys.executable, "-c", script], check=True)
