@@ -1,0 +1,69 @@
+// Another number of motions, another method: asked of the same animation, so the vertices are not touched again.
+
+import * as api from './api.js';
+import { $, make } from './dom.js';
+
+const DELAY = 350; // ms of quiet before a typed or stepped number is sent
+
+/** Wire the form once. `recut(changes)` posts; `current()` is the document on screen. */
+export function controls({ recut, current }) {
+  const field = $('motions');
+  let timer;
+  const send = (changes, delay = 0) => {
+    clearTimeout(timer);
+    timer = setTimeout(() => recut(changes), delay);
+  };
+  const typed = () => {
+    const text = field.value.trim().toLowerCase();
+    if (text === '' || text === 'auto') return 'auto';
+    const number = Number(text);
+    return Number.isInteger(number) && number > 0 ? number : null;
+  };
+  const step = (by) => {
+    const from = typed();
+    const number = Math.max(1, (from === 'auto' || from === null ? current().motions : from) + by);
+    field.value = number;
+    $('auto').setAttribute('aria-pressed', 'false');
+    send({ motions: number }, DELAY);
+  };
+  $('fewer').addEventListener('click', () => step(-1));
+  $('more').addEventListener('click', () => step(1));
+  $('auto').addEventListener('click', () => { field.value = ''; send({ motions: 'auto' }); });
+  field.addEventListener('keydown', (event) => {
+    if (event.key === 'ArrowUp') { event.preventDefault(); step(1); }
+    if (event.key === 'ArrowDown') { event.preventDefault(); step(-1); }
+  });
+  field.addEventListener('change', () => {
+    const motions = typed();
+    if (motions === null) note('A whole number of motions, or auto.');
+    else send({ motions });
+  });
+  $('method').addEventListener('change', (event) => send({ method: event.target.value }));
+  $('controls').addEventListener('submit', (event) => event.preventDefault());
+}
+
+export function note(sentence) { $('controls-note').textContent = sentence; }
+
+/** Show what the document was made with. */
+export function reflect(document) {
+  const { motions } = document.parameters;
+  const auto = motions === 'auto' || motions === undefined;
+  $('motions').value = auto ? '' : motions;
+  $('motions').placeholder = document.motions;
+  $('auto').setAttribute('aria-pressed', String(auto));
+  const select = $('method');
+  if (![...select.options].some((option) => option.value === document.method)) select.append(option(document.method));
+  select.value = document.method;
+}
+
+const option = (name, title) => make('option', { value: name, title: title || '' }, name);
+
+/** Fill the choice of methods from what the service offers. */
+export async function offerMethods() {
+  const answer = await api.methods().catch(() => null);
+  if (!answer) return;
+  const list = Array.isArray(answer.methods) ? answer.methods : Object.entries(answer.methods || {}).map(([name, m]) => ({ name, ...m }));
+  const chosen = $('method').value;
+  $('method').replaceChildren(...list.map((method) => option(method.name || method.method, method.description)));
+  if (chosen) $('method').value = chosen;
+}

@@ -1,0 +1,46 @@
+// Elements in one line each.
+
+export const $ = (id) => document.getElementById(id);
+
+/** `make('li', { className: 'x', onclick }, 'text', child)`. Text is text: nothing a file says becomes markup. */
+export function make(tag, properties = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (name.includes('-') || name === 'role') element.setAttribute(name, value);
+    else element[name] = value;
+  }
+  element.append(...children.filter((child) => child !== null && child !== undefined));
+  return element;
+}
+
+/** A colour of the style sheet, for canvases. */
+export const styled = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+/** Call back when the person's system goes from light to dark or back. */
+export function onTheme(listener) {
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', listener);
+}
+
+/** At most one call a screen frame, however often it is asked for. */
+export function onceAFrame(action) {
+  let asked = false;
+  return () => {
+    if (asked) return;
+    asked = true;
+    requestAnimationFrame(() => { asked = false; action(); });
+  };
+}
+
+/** A canvas made as sharp as the screen; answers its context, in CSS pixels, with its size. */
+export function sharp(canvas) {
+  const { clientWidth: width, clientHeight: height } = canvas;
+  const ratio = devicePixelRatio || 1;
+  if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+  }
+  const context = canvas.getContext('2d');
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.clearRect(0, 0, width, height);
+  return { context, width, height };
+}

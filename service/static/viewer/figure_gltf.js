@@ -1,0 +1,82 @@
+// A glTF plays as itself: the plain copy's one animation, skinned and morphed by the GPU.
+
+import { AnimationMixer, Box3, BufferAttribute, DoubleSide, LoopRepeat, MeshLambertMaterial, Vector3 } from 'three';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { bones } from './bones.js';
+
+export async function gltfFigure(viewer, strain, onProgress) {
+  const gltf = await new GLTFLoader().loadAsync(viewer.model, (event) => event.total && onProgress(event.loaded / event.total));
+  return new GltfFigure(gltf, viewer, strain);
+}
+
+class GltfFigure {
+  #mixer; #action; #clip; #viewer; #points = []; #bones = null; #at = new Vector3();
+
+  constructor(gltf, viewer, strain) {
+    this.object = gltf.scene;
+    this.#viewer = viewer;
+    this.object.traverse((node) => {
+      if (node.isMesh) this.#dress(node, strain);
+      if (node.isBone) this.#points.push(node);
+    });
+    if (viewer.skeleton) {
+      this.#bones = bones(this.object);
+      this.object.add(this.#bones.object);
+      this.#points = this.#bones.joints;
+      strain.dress(this.#bones.material);
+    }
+    if (!this.#points.length) this.object.traverse((node) => { if (node.isMesh) this.#points.push(node); });
+    this.#clip = gltf.animations[0];
+    if (this.#clip) {
+      this.#mixer = new AnimationMixer(this.object);
+      this.#action = this.#mixer.clipAction(this.#clip).setLoop(LoopRepeat).play();
+    }
+    this.pose(0);
+  }
+
+  #dress(mesh, strain) {
+    mesh.frustumCulled = false; // its box is that of the bind pose, and it walks out of it
+    const { geometry } = mesh;
+    if (!geometry.getAttribute('_patch')) {
+      geometry.setAttribute('_patch', new BufferAttribute(new Float32Array(geometry.getAttribute('position').count), 1));
+    }
+    mesh.material = strain.dress(new MeshLambertMaterial({
+      side: DoubleSide, flatShading: !geometry.getAttribute('normal'),
+    }));
+  }
+
+  ready() { return true; }
+
+  fetch() { return Promise.resolve(); }
+
+  /** The pose at a frame, or between two: the animation's own curves are smooth. */
+  pose(position) {
+    if (this.#action) {
+      const { start_seconds: start, frame_rate: rate } = this.#viewer;
+      // The last instant belongs to the last frame, not to the first of the next round.
+      this.#action.time = Math.min(start + position / rate, this.#clip.duration * (1 - 1e-9));
+      this.#mixer.update(0);
+    }
+    this.object.updateMatrixWorld(true);
+    this.#bones?.update();
+  }
+
+  /** The middle of the body: of its joints, or of its parts. */
+  centre(out) {
+    out.set(0, 0, 0);
+    for (const point of this.#points) out.add(this.#at.setFromMatrixPosition(point.matrixWorld));
+    return out.divideScalar(Math.max(1, this.#points.length));
+  }
+
+  box() {
+    const box = new Box3();
+    if (this.#bones) for (const joint of this.#points) box.expandByPoint(this.#at.setFromMatrixPosition(joint.matrixWorld));
+    else box.setFromObject(this.object, true);
+    return box;
+  }
+
+  dispose() {
+    this.#mixer?.stopAllAction();
+    this.object.traverse((node) => { node.geometry?.dispose(); node.material?.dispose(); node.skeleton?.dispose(); });
+  }
+}

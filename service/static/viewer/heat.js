@@ -1,0 +1,4 @@
+// Colours of strain. At rest the body's own clay, then through amber and vermilion to a dark violet: lightness falls
+// all the way, so that the order is read without telling hues apart.
+
+export const HEAT = ['#d5d2ca', '#f0c15a', '#e8712e', '#ae1f57', '#43106b'];

@@ -1,0 +1,20 @@
+// Numbers as people read them.
+
+export const whole = (n) => n.toLocaleString('en-US').replaceAll(',', '\u202f');
+
+export function duration(seconds) {
+  if (seconds < 60) return `${seconds.toFixed(seconds < 10 ? 2 : 1)} s`;
+  const minutes = Math.floor(seconds / 60);
+  const rest = Math.floor(seconds % 60).toString().padStart(2, '0');
+  if (minutes < 60) return `${minutes}:${rest} min`;
+  return `${Math.floor(minutes / 60)}:${(minutes % 60).toString().padStart(2, '0')}:${rest} h`;
+}
+
+export const clock = (seconds) => {
+  const minutes = Math.floor(Math.max(0, seconds) / 60);
+  return `${minutes}:${(Math.max(0, seconds) - 60 * minutes).toFixed(2).padStart(5, '0')}`;
+};
+
+export const rate = (fps) => `${Number(fps.toFixed(3))} frames/s`;
+
+export const count = (n, one, many = `${one}s`) => `${whole(n)} ${n === 1 ? one : many}`;

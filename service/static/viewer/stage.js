@@ -1,0 +1,133 @@
+// The 3D view: camera, light, floor and one figure. Draws only when something changed.
+
+import { DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { onTheme, styled } from './dom.js';
+import { gltfFigure } from './figure_gltf.js';
+import { verticesFigure } from './figure_vertices.js';
+import { Floor } from './floor.js';
+import { Strain } from './strain.js';
+
+export class Stage {
+  #renderer; #scene = new Scene(); #camera = new PerspectiveCamera(32, 1, 0.01, 1000); #orbit; #floor = new Floor();
+  #key = new DirectionalLight(0xfff4e6, 2.1); #rim = new DirectionalLight(0xcfe0ff, 0.9); #asked = false;
+  #middle = new Vector3(); #last = new Vector3(); #step = new Vector3();
+
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.figure = null;
+    this.strain = new Strain();
+    this.following = true;
+    this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.#scene.add(new HemisphereLight(0xffffff, 0x8d8375, 1.5), this.#key, this.#rim, this.#camera, this.#floor.object);
+    this.#scene.add(this.#key.target, this.#rim.target);
+    this.#orbit = new OrbitControls(this.#camera, canvas);
+    this.#orbit.enableDamping = false;
+    this.#orbit.addEventListener('change', () => this.draw());
+    new ResizeObserver(() => this.#fit()).observe(canvas.parentElement);
+    onTheme(() => this.#theme());
+    this.#theme();
+    this.#fit();
+  }
+
+  /** Load what the service's viewer document names, in place of what was there. */
+  async show(viewer, onProgress = () => {}) {
+    const strain = new Strain();
+    const colours = viewer.strain ? strain.open(viewer.strain).catch(() => {}) : null; // the figure is worth more than its colours
+    const figure = await (viewer.kind === 'gltf' ? gltfFigure : verticesFigure)(viewer, strain, onProgress);
+    await colours;
+    this.clear();
+    this.strain = strain;
+    this.figure = figure;
+    this.#scene.add(figure.object);
+    this.reframe();
+  }
+
+  clear() {
+    if (!this.figure) return;
+    this.#scene.remove(this.figure.object);
+    this.figure.dispose();
+    this.strain.dispose();
+    this.figure = null;
+    this.draw();
+  }
+
+  /** Show a moment. Answers false where its strain is still on the way. */
+  pose(position) {
+    if (!this.figure) return true;
+    this.figure.pose(position);
+    const coloured = this.strain.show(Math.floor(position));
+    this.figure.centre(this.#middle);
+    if (this.following) {
+      this.#step.subVectors(this.#middle, this.#last).setY(0); // a jump should look like one
+      this.#orbit.target.add(this.#step);
+      this.#camera.position.add(this.#step);
+    }
+    this.#last.copy(this.#middle);
+    this.draw();
+    return coloured;
+  }
+
+  /** Stand back until the whole figure is seen, a little from the side and above. */
+  reframe() {
+    if (!this.figure) return;
+    const box = this.figure.box();
+    const size = box.getSize(new Vector3());
+    const centre = box.getCenter(new Vector3());
+    const radius = size.length() / 2 || 1;
+    const aspect = Math.min(1, this.#camera.aspect);
+    const distance = (radius * 0.86) / Math.sin((this.#camera.fov * Math.PI) / 360) / aspect;
+    this.#camera.position.copy(centre).addScaledVector(new Vector3(0.62, 0.26, 0.74).normalize(), distance);
+    this.#camera.near = distance / 200;
+    this.#camera.far = distance * 60;
+    this.#camera.updateProjectionMatrix();
+    this.#orbit.target.copy(centre);
+    this.#orbit.minDistance = radius * 0.3;
+    this.#orbit.maxDistance = distance * 12;
+    this.#floor.fit(Math.max(size.y, radius * 0.8), Math.max(size.x, size.z), box.min.y - radius * 0.002);
+    this.figure.centre(this.#last);
+    this.#middle.copy(this.#last);
+    this.#orbit.update();
+    this.draw();
+  }
+
+  /** Stand a figure whose up is z on its feet, or lay it back. */
+  turn(upIsZ) {
+    if (!this.figure) return;
+    this.figure.object.rotation.x = upIsZ ? -Math.PI / 2 : 0;
+    this.figure.object.updateMatrixWorld(true);
+    this.reframe();
+  }
+
+  draw() {
+    if (this.#asked) return;
+    this.#asked = true;
+    requestAnimationFrame(() => { this.#asked = false; this.#render(); });
+  }
+
+  #render() {
+    const { target } = this.#orbit;
+    this.#floor.follow(target, this.#middle);
+    // The key light stands over the viewer's left shoulder, so that no side of the figure is ever left in the dark.
+    this.#key.target.position.copy(target);
+    this.#key.position.set(-0.5, 0.9, 0.6).applyQuaternion(this.#camera.quaternion).add(target);
+    this.#rim.target.position.copy(target);
+    this.#rim.position.set(0.9, 0.5, -0.8).applyQuaternion(this.#camera.quaternion).add(target);
+    this.#renderer.render(this.#scene, this.#camera);
+  }
+
+  #fit() {
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
+    if (!width || !height) return;
+    this.#renderer.setSize(width, height, false);
+    this.#camera.aspect = width / height;
+    this.#camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  #theme() {
+    this.#floor.colours(styled('--grid'), styled('--shade'));
+    this.draw();
+  }
+}

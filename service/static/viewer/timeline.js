@@ -1,0 +1,79 @@
+// The motions along the take: one coloured box a segment, named. Drawn on a canvas, so that thousands cost little.
+
+import { onceAFrame, onTheme, sharp, styled } from './dom.js';
+import { colourOf, fillOf, inkOn } from './palette.js';
+
+const GAP = 1;
+
+export class Timeline {
+  #canvas; #span; #plot; #document; #current = -1;
+
+  /** `plot()` says where the curve's plot lies, so that frames stand under each other. */
+  constructor(canvas, document, span, plot) {
+    this.#canvas = canvas;
+    this.#document = document;
+    this.#span = span;
+    this.#plot = plot;
+    this.refresh = onceAFrame(() => this.#draw());
+    span.listen(this.refresh);
+    onTheme(this.refresh);
+    new ResizeObserver(this.refresh).observe(canvas);
+    this.refresh();
+  }
+
+  show(document) {
+    this.#document = document;
+    this.#current = -1;
+    this.refresh();
+  }
+
+  /** Mark the segment that plays. */
+  mark(index) {
+    if (index === this.#current) return;
+    this.#current = index;
+    this.refresh();
+  }
+
+  #draw() {
+    const { context, width, height } = sharp(this.#canvas);
+    if (!width) return;
+    const plot = this.#plot();
+    context.beginPath();
+    context.rect(plot.left, 0, plot.width, height);
+    context.clip();
+    const place = (frame) => plot.left + ((frame - this.#span.from) / this.#span.length) * plot.width;
+    context.font = `600 12px ${styled('--sans')}`;
+    context.textBaseline = 'middle';
+    this.#document.segments.forEach((segment, index) => {
+      if (segment.end <= this.#span.from || segment.start >= this.#span.to) return;
+      this.#box(context, segment, index, place(segment.start), place(segment.end), height);
+    });
+  }
+
+  #box(context, segment, index, left, right, height) {
+    const wide = right - left;
+    const gap = wide > 4 ? GAP : 0;
+    const here = index === this.#current;
+    const top = here ? 0 : 4;
+    context.fillStyle = fillOf(segment.motion, context);
+    context.globalAlpha = this.#current < 0 || here ? 1 : 0.82;
+    context.fillRect(left + gap / 2, top, Math.max(0.5, wide - gap), height - 2 * top);
+    context.globalAlpha = 1;
+    this.#label(context, segment, left, right, height);
+  }
+
+  #label(context, segment, left, right, height) {
+    const from = Math.max(left, this.#plot().left);
+    const room = Math.min(right, this.#plot().left + this.#plot().width) - from;
+    const size = context.measureText(segment.name).width;
+    if (room < size + 8) return;
+    const colour = colourOf(segment.motion);
+    const x = from + Math.min(8, (room - size) / 2);
+    if (segment.motion >= 12) { // a plate, so that a texture never runs through the name
+      context.fillStyle = colour;
+      context.fillRect(x - 3, height / 2 - 8, size + 6, 16);
+    }
+    context.fillStyle = inkOn(colour);
+    context.fillText(segment.name, x, height / 2 + 0.5);
+  }
+}

@@ -1,0 +1,56 @@
+// Waiting for a segmentation: live by server-sent events, by long polling where those do not come through.
+
+import * as api from './api.js';
+
+const OVER = new Set(['done', 'failed', 'cancelled']);
+
+/** The status document once it is done. `onStatus` hears every one on the way. Throws the problem it failed with. */
+export async function finished(id, onStatus, signal) {
+  let status = await api.status(id, 0, signal);
+  onStatus(status);
+  if (!OVER.has(status.status)) status = await listen(id, onStatus, signal).catch((e) => stopOr(e, null));
+  while (!status || !OVER.has(status.status)) {
+    status = await api.status(id, 15, signal);
+    onStatus(status);
+  }
+  if (status.status === 'failed') throw new api.Problem(status.problem || { detail: 'It failed without a reason.' });
+  if (status.status === 'cancelled') throw new api.Problem({ code: 'cancelled', detail: 'This segmentation was cancelled.' });
+  return status;
+}
+
+function stopOr(error, value) {
+  if (error.name === 'AbortError') throw error;
+  return value;
+}
+
+/** Follow the events until the last one; rejects when the stream breaks, and polling takes over. */
+function listen(id, onStatus, signal) {
+  return new Promise((resolve, reject) => {
+    const stream = new EventSource(`/v1/segmentations/${id}/events`);
+    const end = (settle, value) => { stream.close(); settle(value); };
+    const hear = (event) => {
+      const status = JSON.parse(event.data);
+      onStatus(status);
+      if (OVER.has(status.status)) end(resolve, status);
+    };
+    stream.addEventListener('status', hear);
+    stream.addEventListener('deleted', () => end(resolve, { status: 'cancelled' }));
+    stream.onerror = () => end(reject, new Error('stream ended'));
+    signal?.addEventListener('abort', () => end(reject, new DOMException('cancelled', 'AbortError')));
+  });
+}
+
+const STAGES = {
+  upload: 'Sending',
+  queued: 'Waiting for a free worker',
+  read: 'Reading the file',
+  strain: 'Measuring how the surface strains',
+  features: 'Describing every frame',
+  energy: 'Joining strain over time',
+  'peak-strain': 'Looking at the key-frames',
+  cut: 'Finding the motions',
+  figure: 'Preparing the figure',
+};
+
+/** A stage in words. A stage this page has not heard of is shown under its own name. */
+export const stageInWords = (stage) => STAGES[stage] || (stage ? stage[0].toUpperCase() + stage.slice(1).replaceAll('-', ' ') : '');
