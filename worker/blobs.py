@@ -58,8 +58,8 @@ class Blobs:
             path.unlink()
         return key
 
-    def put(self, content: bytes | memoryview, kind: Kind) -> str:
-        """Keep some bytes."""
+    def put(self, content: bytes | memoryview | Iterator[bytes], kind: Kind) -> str:
+        """Keep some bytes, at once or piece by piece as they are made."""
         key = _new_key(kind)
         obstore.put(self._store, key, content)
         return key

@@ -20,10 +20,14 @@ from rq.command import send_stop_job_command
 from rq.exceptions import InvalidJobOperation, NoSuchJobError
 from rq.job import Job
 from rq.serializers import JSONSerializer
+from rq.timeouts import JobTimeoutException as TimeLimit
 
 from worker import ids, schema
-from worker.records import Records
+from worker.records import Records, connect
 from worker.schema import ExportRecord, Queue, SegmentationRecord
+from worker.settings import WorkerSettings
+
+__all__ = ["Jobs", "TimeLimit", "worker_problem"]
 
 log = logging.getLogger(__name__)
 
@@ -49,6 +53,11 @@ class Jobs:
         self._seconds = job_seconds
         self._queues = {name: RqQueue(name, connection=client, serializer=JSONSerializer) for name in QUEUES}
         self._missed: set[str] = set()
+
+    @classmethod
+    def open(cls, settings: WorkerSettings) -> "Jobs":
+        """The jobs of the Redis that the settings name."""
+        return cls(connect(settings.redis_location), settings.attempts, settings.job_seconds)
 
     # What the service asks.
 

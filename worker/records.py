@@ -64,14 +64,25 @@ class Records:
         stored = self.redis.get(schema.analysis_key(animation, digest))
         return None if stored is None else AnalysisRecord.model_validate_json(stored)
 
-    def add_analysis(self, animation: str, digest: str, record: AnalysisRecord) -> AnalysisRecord:
-        """Keep an analysis; where one was there before, that one is answered and stays."""
+    def add_analysis(self, animation: str, digest: str, record: AnalysisRecord) -> AnalysisRecord | None:
+        """Keep an analysis, and answer the one that is kept: this, or another that was there before.
+
+        None where the animation was deleted meanwhile: then nothing is kept.
+        """
         key = schema.analysis_key(animation, digest)
         with self.redis.pipeline() as pipe:
-            pipe.set(key, record.model_dump_json(), nx=True)
-            pipe.sadd(schema.analyses_key(animation), digest)
-            pipe.get(key)
-            return AnalysisRecord.model_validate_json(pipe.execute()[-1])
+            while True:
+                pipe.watch(schema.animation_key(animation))
+                if not pipe.exists(schema.animation_key(animation)):
+                    return None
+                pipe.multi()
+                pipe.set(key, record.model_dump_json(), nx=True)
+                pipe.sadd(schema.analyses_key(animation), digest)
+                pipe.get(key)
+                try:
+                    return AnalysisRecord.model_validate_json(pipe.execute()[-1])
+                except redis.WatchError:
+                    continue
 
     def analyses(self, animation: str) -> dict[str, AnalysisRecord]:
         """All analyses of an animation, by digest."""
@@ -162,6 +173,14 @@ class Records:
     def fail(self, identifier: str, token: str, problem: dict[str, Any]) -> bool:
         """running -> failed, with the problem that is answered from now on."""
         return self.of_attempt(token, identifier, status="failed", problem=problem) is not None
+
+    def result(self, identifier: str) -> tuple[bytes | None, bytes | None, bytes | None]:
+        """The result document, the energy curve and the labels, as stored."""
+        with self.redis.pipeline() as pipe:
+            for part in ("document", "energy", "labels"):
+                pipe.get(schema.segmentation_key(identifier, part))
+            document, energy, labels = pipe.execute()
+            return document, energy, labels
 
     def delete_segmentation(self, record: SegmentationRecord) -> None:
         """Forget a segmentation and its result; cancel it before."""

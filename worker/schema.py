@@ -113,12 +113,24 @@ class AnimationRecord(_Record):
     used: float = 0.0
 
 
+class ViewerRecord(_Record):
+    """What the page plays: the document that describes it, and the blobs of the model and of its strain."""
+
+    document: dict[str, Any]
+    model: str
+    strain: str | None = None
+
+
 class AnalysisRecord(_Record):
-    """What was computed from the vertices: the blob of the analysis, and those that the page plays."""
+    """What was computed from the vertices: the blob of the analysis, and what the page plays."""
 
     key: str
-    bytes: int
-    viewer: dict[str, str] = {}
+    viewer: ViewerRecord | None = None
+
+    def blobs(self) -> list[str]:
+        """Every blob it points to."""
+        shown = [] if self.viewer is None else [self.viewer.model, self.viewer.strain]
+        return [key for key in (self.key, *shown) if key is not None]
 
 
 class ExportRecord(_Record):
@@ -152,8 +164,7 @@ class SegmentationRecord(_Record):
     problem: dict[str, Any] | None = None
     created: float
     updated: float
-    analysis: str | None = None
-    viewer: dict[str, str] = {}
+    analysis: AnalysisRecord | None = None
     motions: int | None = None
     frames: int | None = None
     segments: tuple[Segment, ...] = ()

@@ -25,6 +25,7 @@ class WorkerSettings(Limits, BaseSettings):
         validation_alias=AliasChoices("REDIS_URL", "CAESURA_REDIS_URL"),
         description="the Redis to use; empty: the embedded server of this machine",
     )
+    redis_server_bin: str = Field("", description="program of the embedded Redis; empty: the bundled one, else PATH's")
     store_url: str = Field(
         "", description="object store, such as s3://bucket/prefix; empty: a folder in the data folder"
     )

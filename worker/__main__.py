@@ -1,0 +1,80 @@
+"""`python -m worker`: take jobs from Redis until told to stop.
+
+python -m worker                                    one worker for everything, one for `cut` alone
+python -m worker --queues cut                       one worker, for `cut` alone
+python -m worker --queues analyse,cut --queues cut  one process for each
+python -m worker --check                            exit status 0 where a worker of this machine is alive
+"""
+
+import argparse
+import logging
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from redis.exceptions import RedisError
+
+from worker.horses import CaesuraWorker, alive_here
+from worker.jobs import QUEUES, Jobs
+from worker.pool import Pool
+from worker.records import connect
+from worker.settings import WorkerSettings
+
+DEFAULT_GROUPS = [["analyse", "cut"], ["cut"]]
+LOG_FORMAT = "%(asctime)s %(levelname)s %(name)s: %(message)s"
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the workers, or check them."""
+    parser = argparse.ArgumentParser(prog="python -m worker", description="Take jobs from Redis until told to stop.")
+    parser.add_argument("--queues", action="append", type=_queues, metavar="NAME,…", help="one worker; may be repeated")
+    parser.add_argument("--check", action="store_true", help="exit with 0 where a worker of this machine is alive")
+    options = parser.parse_args(arguments)
+    settings = WorkerSettings()
+    if options.check:
+        sys.exit(0 if _alive(settings) else 1)
+    logging.basicConfig(level=logging.INFO, format=LOG_FORMAT)
+    run(settings, options.queues or DEFAULT_GROUPS)
+
+
+def run(settings: WorkerSettings, groups: list[list[str]]) -> None:
+    """Warm up on one thread, then fork the workers."""
+    _choose_cache(settings)
+    # Only now is it settled where compiled code is kept. The tasks are loaded for the forks to have them.
+    from worker import tasks  # noqa: F401, PLC0415
+    from worker.warming import warm  # noqa: PLC0415
+
+    warm()
+    Pool(groups, lambda queues: _work(queues, settings), Jobs.open(settings).reconcile, settings.stop_seconds).run()
+
+
+def _work(queues: list[str], settings: WorkerSettings) -> None:
+    """One worker, in its own process."""
+    client = connect(settings.redis_location)
+    CaesuraWorker(queues, client, Jobs.open(settings)).work(logging_level="INFO")
+
+
+def _alive(settings: WorkerSettings) -> bool:
+    try:
+        return alive_here(connect(settings.redis_location))
+    except RedisError:
+        return False
+
+
+def _choose_cache(settings: WorkerSettings) -> None:
+    """Compiled code is kept beside the sources, or in the data folder where these may not be written."""
+    if not os.access(Path(__file__).parent, os.W_OK):
+        os.environ.setdefault("NUMBA_CACHE_DIR", str(settings.data_dir / "compiled"))
+
+
+def _queues(text: str) -> list[str]:
+    names = text.split(",")
+    for name in names:
+        if name not in QUEUES:
+            raise argparse.ArgumentTypeError(f"there is no queue {name!r}; there are {' and '.join(QUEUES)}")
+    return names
+
+
+if __name__ == "__main__":
+    main()

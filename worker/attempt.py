@@ -1,0 +1,108 @@
+"""One attempt at one segmentation: how far it tells it is, and how it learns that it is no longer wanted."""
+
+import logging
+import time
+from collections.abc import Callable
+from typing import Any
+
+from obstore.exceptions import BaseError as StoreError
+from redis.exceptions import RedisError
+
+from core.errors import CaesuraError
+from worker.blobs import BlobMissing
+from worker.jobs import Jobs, TimeLimit, worker_problem
+from worker.schema import SegmentationRecord
+
+log = logging.getLogger(__name__)
+
+TELL_SECONDS = 0.2
+INFRASTRUCTURE = (OSError, RedisError, StoreError)
+
+OUT_OF_MEMORY = worker_problem(
+    "out-of-memory",
+    "This take needs more memory than a job may use here. Send a smaller mesh or a shorter take, or ask the keeper "
+    "of this service to raise CAESURA_JOB_MEMORY_BYTES.",
+    setting="CAESURA_JOB_MEMORY_BYTES",
+)
+OUT_OF_TIME = worker_problem(
+    "out-of-time",
+    "This take needs more time than a job may use here. Send a shorter take or a lower fps, or ask the keeper of "
+    "this service to raise CAESURA_JOB_SECONDS.",
+    setting="CAESURA_JOB_SECONDS",
+)
+UNAVAILABLE = worker_problem(
+    "storage-unavailable",
+    "The service could not reach its store or its queue. Nothing is wrong with the file; try again.",
+)
+DELETED = worker_problem("animation-deleted", "The animation was deleted before it was analysed. Upload it again.")
+INTERNAL_ERROR = worker_problem(
+    "internal-error", "Something went wrong that is not the file's fault; the service's log has the details."
+)
+
+
+class Superseded(Exception):
+    """Another attempt, or none, is wanted now."""
+
+
+class Attempt:
+    """A running attempt. `record` is as it was when it began."""
+
+    def __init__(self, jobs: Jobs, record: SegmentationRecord) -> None:
+        self.records = jobs.records
+        self.jobs = jobs
+        self.record = record
+        self._told = 0.0
+        self._stage = ""
+        self._fraction = 0.0
+
+    def progress(self, stage: str, fraction: float) -> None:
+        """Write where it is, at most five times a second, and every new stage; raises `Superseded`.
+
+        A stage that needs a second pass stays where it was until that is further: progress never goes back.
+        """
+        now = time.monotonic()
+        if stage == self._stage and now - self._told < TELL_SECONDS:
+            return
+        fraction = min(max(fraction, 0.0, self._fraction if stage == self._stage else 0.0), 1.0)
+        self._told, self._stage, self._fraction = now, stage, fraction
+        if self.records.of_attempt(self.record.token, self.record.id, stage=stage, fraction=fraction) is None:
+            raise Superseded
+
+    def fail(self, problem: dict[str, Any]) -> None:
+        """End it with a problem."""
+        self.records.fail(self.record.id, self.record.token, problem)
+
+    def again(self, problem: dict[str, Any]) -> None:
+        """Try it once more, or end it with the problem after the last attempt."""
+        self.jobs.again(self.record.id, self.record.token, problem)
+
+
+def carry_out(jobs: Jobs, identifier: str, token: str, work: Callable[[Attempt], None]) -> None:
+    """Run one attempt to its end, whichever that is. What a person can mend ends the job normally.
+
+    The store or the queue out of reach: tried again, a bounded number of times. Anything else is a bug of ours: the
+    record says so in one sentence, and the exception goes on to RQ, which logs it.
+    """
+    record = jobs.records.begin(identifier, token)
+    if record is None:
+        log.info("%s: this attempt is no longer wanted", identifier)
+        return
+    attempt = Attempt(jobs, record)
+    try:
+        work(attempt)
+    except Superseded:
+        log.info("%s: stopped, for it is no longer wanted", identifier)
+    except CaesuraError as refusal:
+        attempt.fail(refusal.problem())
+    except BlobMissing:
+        attempt.fail(DELETED)
+    except MemoryError:
+        attempt.fail(OUT_OF_MEMORY)
+    except TimeLimit:
+        attempt.fail(OUT_OF_TIME)
+    except INFRASTRUCTURE:
+        attempt.again(UNAVAILABLE)
+        raise
+    except Exception:
+        attempt.fail(INTERNAL_ERROR)
+        raise

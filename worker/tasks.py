@@ -1,0 +1,110 @@
+"""What a worker does: read an upload, analyse it, cut it, and keep the result. Each function is one RQ job."""
+
+from contextlib import suppress
+
+from core.analysis import Analysis
+from core.formats.playback.play import playback
+from core.formats.read import read_animation
+from core.parameters import Parameters
+from core.pipeline import analyse, cut
+from worker import exports, ids
+from worker.allowance import Allowance
+from worker.attempt import Attempt, Superseded, carry_out
+from worker.blobs import BlobMissing, Blobs
+from worker.cpu import available_threads
+from worker.jobs import Jobs
+from worker.mapping import mapped_parts, scratch_space
+from worker.schema import AnalysisRecord, AnimationRecord, ViewerRecord
+from worker.settings import WorkerSettings
+
+
+def run_analyse(identifier: str, token: str) -> None:
+    """The job of the queue `analyse`: from the vertices to the result."""
+    settings = WorkerSettings()
+    carry_out(Jobs.open(settings), identifier, token, lambda attempt: _analyse(attempt, settings))
+
+
+def run_cut(identifier: str, token: str) -> None:
+    """The job of the queue `cut`: another cut of a stored analysis. It never sees a vertex."""
+    settings = WorkerSettings()
+    carry_out(Jobs.open(settings), identifier, token, lambda attempt: _cut(attempt, settings))
+
+
+def run_export(identifier: str, form: str) -> None:
+    """A file made of a result, for the web process has no arrays."""
+    settings = WorkerSettings()
+    exports.run(
+        Jobs.open(settings).records, Blobs.open(settings.store_location, settings.scratch_dir), identifier, form
+    )
+
+
+def _analyse(attempt: Attempt, settings: WorkerSettings) -> None:
+    record, parameters = attempt.record, attempt.record.chosen()
+    digest = ids.heavy_digest(parameters.heavy(), record.algorithm)
+    threads = settings.threads or available_threads()
+    uploaded = _animation(attempt)
+    allowance = Allowance(settings.job_memory_bytes, settings.job_seconds * threads)
+    blobs = Blobs.open(settings.store_location, settings.scratch_dir)
+    attempt.progress("read", 0.0)
+    with mapped_parts(blobs, uploaded.parts, allowance.grant) as parts:
+        scratch = scratch_space(settings.scratch_dir, allowance.grant)
+        animation = read_animation(parts, parameters, settings.limits, scratch)
+        analysis = analyse(animation, parameters, threads=threads, progress=attempt.progress)
+        shown = playback(animation, parts, analysis, threads=threads, progress=attempt.progress)
+        viewer = ViewerRecord(
+            document=shown.document,
+            model=blobs.put(shown.model, "viewer"),
+            strain=None if shown.strain is None else blobs.put(shown.strain, "viewer"),
+        )
+    made = AnalysisRecord(key=blobs.put(analysis.to_bytes(), "analyses"), viewer=viewer)
+    kept = _keep(attempt, blobs, digest, made)
+    _finish(attempt, kept, analysis, parameters)
+
+
+def _keep(attempt: Attempt, blobs: Blobs, digest: str, made: AnalysisRecord) -> AnalysisRecord:
+    """Keep the analysis. Where another job made the same one meanwhile, its blobs stay and these go."""
+    kept = attempt.records.add_analysis(attempt.record.animation, digest, made)
+    if kept != made:
+        for key in made.blobs():
+            blobs.delete(key)
+    if kept is None:
+        raise Superseded
+    return kept
+
+
+def _cut(attempt: Attempt, settings: WorkerSettings) -> None:
+    record, parameters = attempt.record, attempt.record.chosen()
+    digest = ids.heavy_digest(parameters.heavy(), record.algorithm)
+    Allowance(settings.job_memory_bytes, settings.job_seconds)
+    blobs = Blobs.open(settings.store_location, settings.scratch_dir)
+    stored = attempt.records.analysis(record.animation, digest)
+    if stored is not None:
+        with suppress(BlobMissing):
+            analysis = Analysis.from_bytes(blobs.read(stored.key))
+            _finish(attempt, stored, analysis, parameters)
+            return
+        attempt.records.delete_analysis(record.animation, digest)
+    attempt.jobs.hand_back(record.id, record.token, queue="analyse")
+
+
+def _finish(attempt: Attempt, stored: AnalysisRecord, analysis: Analysis, parameters: Parameters) -> None:
+    attempt.progress("cut", 0.0)
+    result = cut(analysis, parameters)
+    document = result.document(attempt.record.id)
+    attempt.records.finish(
+        attempt.record.id,
+        attempt.record.token,
+        document.model_dump_json(),
+        {"energy": result.energy.astype("<f4").tobytes(), "labels": result.labels.astype("<u2").tobytes()},
+        analysis=stored,
+        motions=document.motions,
+        frames=document.frames,
+        segments=document.segments,
+    )
+
+
+def _animation(attempt: Attempt) -> AnimationRecord:
+    found = attempt.records.animation(attempt.record.animation)
+    if found is None:
+        raise BlobMissing(attempt.record.animation)
+    return found

@@ -1,0 +1,44 @@
+"""Compile and load everything once, before the first fork: a job then starts in milliseconds.
+
+On one thread only: BLAS and OpenMP pools made before a fork hang the child (see `threadpoolctl` in core).
+"""
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from core.animation import Animation, Take
+from core.methods import METHODS
+from core.parameters import Parameters
+from core.pipeline import analyse, cut
+
+FRAMES = 240
+RATE = 30.0
+
+
+def warm() -> None:
+    """Analyse and cut eight seconds of a bending sheet, by every method."""
+    animation = sheet()
+    parameters = Parameters(motions=2)
+    with threadpool_limits(1):
+        analysis = analyse(animation, parameters, threads=1)
+        for method in METHODS:
+            cut(analysis, parameters.model_copy(update={"method": method}))
+
+
+def sheet(side: int = 6) -> Animation:
+    """A square sheet that bends, stops, and stretches."""
+    row, column = np.divmod(np.arange(side * side), side)
+    flat = np.stack([column, row, np.zeros_like(row)], axis=1).astype(np.float32)
+    corner = np.array([r * side + c for r in range(side - 1) for c in range(side - 1)])
+    triangles = np.concatenate([corner[:, None] + [0, 1, side], corner[:, None] + [1, side + 1, side]])
+
+    def vertices(start: int, stop: int) -> np.ndarray:
+        time = np.arange(start, stop, dtype=np.float32)[:, None] / np.float32(RATE)
+        first = time < FRAMES / RATE / 2
+        posed = np.repeat(flat[None], stop - start, axis=0)
+        posed[:, :, 2] = np.where(first, np.sin(4 * time) * flat[:, 0] ** 2 / side, 0)
+        posed[:, :, 1] *= np.where(first, 1, 1.3 + 0.3 * np.sin(6 * time)).astype(np.float32)
+        return posed
+
+    take = Take(index=0, name="sheet", duration_seconds=(FRAMES - 1) / RATE, frames=FRAMES, frame_rate=RATE)
+    return Animation(vertices, side * side, triangles.astype(np.int32), flat, FRAMES, RATE, take)
