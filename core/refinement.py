@@ -1,0 +1,98 @@
+"""Refinement: windows blur a cut by up to half their length; single frames say where it is."""
+
+import numpy as np
+from jaxtyping import Float, Int
+from threadpoolctl import threadpool_limits
+
+from core.analysis import Features
+from core.windows import speeds
+
+REACH_SECONDS = 1.0
+GUARD_SECONDS = 0.75
+"""So near to a cut a frame is no example of its motion."""
+NEAREST = 5
+EXAMPLES = 600
+SPEED_WEIGHT = 0.5
+
+
+def refined(
+    labels: Int[np.ndarray, "frames"], features: tuple[Features, ...], frame_rate: float
+) -> Int[np.ndarray, "frames"]:
+    """Every cut moved within a second to where the frames before it are most like the motion before it, and those
+    after it like the one after.
+
+    How unlike a frame is to a motion is its mean distance to the 5 nearest of that motion's frames (at most 600, none
+    near a cut). No segment is lost: a cut moves at most halfway to its neighbours.
+    """
+    cuts = np.flatnonzero(np.diff(labels)) + 1
+    poses = poses_and_speeds(features, frame_rate)
+    if len(cuts) == 0 or poses.shape[1] == 0:
+        return labels
+    with threadpool_limits(1):
+        examples = _examples(poses, labels, cuts, round(GUARD_SECONDS * frame_rate))
+        moved = _moved(poses, labels, cuts, examples, max(round(REACH_SECONDS * frame_rate), 1))
+    bounds = np.concatenate([[0], cuts])
+    lengths = np.diff(np.concatenate([[0], moved, [len(labels)]]))
+    return np.asarray(np.repeat(labels[bounds], lengths))
+
+
+def poses_and_speeds(features: tuple[Features, ...], frame_rate: float) -> Float[np.ndarray, "frames D"]:
+    """Every descriptor and its speed, side by side, each at unit mean square but speeds at half of it."""
+    parts = []
+    for feature in features:
+        values = feature.values.astype(np.float64)
+        for part, weight in ((values - values.mean(axis=0), 1.0), (speeds(values, frame_rate), SPEED_WEIGHT)):
+            square = float(np.einsum("fd,fd->", part, part)) / len(part)
+            if square > 0:
+                parts.append((part * (weight / np.sqrt(square))).astype(np.float32))
+    frames = len(features[0].values) if features else 0
+    return np.concatenate(parts, axis=1) if parts else np.zeros((frames, 0), np.float32)
+
+
+def _examples(
+    poses: Float[np.ndarray, "frames D"], labels: Int[np.ndarray, "frames"], cuts: Int[np.ndarray, "cuts"], guard: int
+) -> dict[int, Float[np.ndarray, "examples D"]]:
+    """Frames of every motion, evenly chosen from those at least `guard` from a cut, or the middle thirds."""
+    bounds = np.concatenate([[0], cuts, [len(labels)]])
+    inside = np.zeros(len(labels), bool)
+    for start, stop in zip(bounds[:-1].tolist(), bounds[1:].tolist(), strict=True):
+        margin = min(guard, (stop - start) // 3)
+        inside[start + margin if start else start : stop - margin if stop < len(labels) else stop] = True
+    found = {}
+    for motion in np.unique(labels).tolist():
+        frames = np.flatnonzero(inside & (labels == motion))
+        chosen = np.linspace(0, len(frames) - 1, min(len(frames), EXAMPLES)).astype(np.int64)
+        found[motion] = poses[frames[chosen]]
+    return found
+
+
+def _moved(
+    poses: Float[np.ndarray, "frames D"],
+    labels: Int[np.ndarray, "frames"],
+    cuts: Int[np.ndarray, "cuts"],
+    examples: dict[int, Float[np.ndarray, "examples D"]],
+    reach: int,
+) -> Int[np.ndarray, "cuts"]:
+    """The best place of each cut, within reach and at most halfway to the cuts beside it."""
+    bounds = np.concatenate([[0], cuts, [len(labels)]])
+    moved = cuts.copy()
+    for i, cut in enumerate(cuts.tolist()):
+        first = max(cut - reach, (int(bounds[i]) + cut) // 2 + 1)
+        last = min(cut + reach, (cut + int(bounds[i + 2])) // 2)
+        if first >= last:
+            continue
+        before = _unlikeness(poses[first:last], examples[int(labels[cut - 1])])
+        after = _unlikeness(poses[first:last], examples[int(labels[cut])])
+        cost = np.concatenate([[0.0], np.cumsum(before - after)])
+        moved[i] = first + int(cost.argmin())
+    return moved
+
+
+def _unlikeness(
+    poses: Float[np.ndarray, "some D"], examples: Float[np.ndarray, "examples D"]
+) -> Float[np.ndarray, "some"]:
+    """Mean distance to the nearest examples."""
+    square = np.einsum("fd,fd->f", poses, poses)[:, None] + np.einsum("ed,ed->e", examples, examples)
+    distance = np.sqrt(np.maximum(square - 2 * poses @ examples.T, 0.0))
+    nearest = min(NEAREST, distance.shape[1])
+    return np.asarray(np.partition(distance, nearest - 1, axis=1)[:, :nearest].mean(axis=1, dtype=np.float64))
