@@ -1,0 +1,46 @@
+"""The web application: it streams bytes, reads headers, queues ids and serves what is stored. It never computes."""
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from importlib.metadata import version
+
+from fastapi import Depends, FastAPI
+from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
+
+from service import errors, openapi
+from service.backend import opened
+from service.queries import only_known
+from service.routes import about, animations, health, pages, results, segmentations
+from service.security import SecurityHeaders
+from service.settings import ServiceSettings
+
+FILES = ("application/octet-stream", "application/x-npz", "model/*")
+"""Served by Range, or packed already: a compressed form would be another file."""
+
+
+def create_app(settings: ServiceSettings) -> FastAPI:
+    """The application, not yet connected: Redis and the store are opened when it starts."""
+
+    @asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        async with opened(settings) as backend:
+            app.state.backend = backend
+            yield
+
+    app = FastAPI(
+        title="Caesura",
+        version=version("caesura"),
+        lifespan=lifespan,
+        docs_url=None,  # FastAPI's page loads scripts from another site
+        redoc_url=None,
+        generate_unique_id_function=openapi.operation_name,
+    )
+    errors.install(app)
+    for routes in (animations, segmentations, results, about, health):
+        app.include_router(routes.router, dependencies=[Depends(only_known)])
+    app.include_router(pages.router)
+    pages.mount(app)
+    openapi.describe(app)
+    app.add_middleware(GZipMiddleware, compresslevel=6, exclude_content_types=(*DEFAULT_EXCLUDED_CONTENT_TYPES, *FILES))
+    app.add_middleware(SecurityHeaders)
+    return app

@@ -1,0 +1,88 @@
+"""What lies behind the routes: records, queue and store, opened once for the life of the process."""
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Annotated
+
+from anyio import to_thread
+from fastapi import Depends, Request
+
+from service.errors import Refusal
+from service.settings import ServiceSettings
+from worker import ids
+from worker.blobs import Blobs
+from worker.jobs import Jobs
+from worker.records import AsyncRecords, connect
+from worker.schema import AnimationRecord, SegmentationRecord
+
+
+@dataclass
+class Backend:
+    """`records` reads without blocking; `jobs` and `blobs` block, so they are called on threads."""
+
+    settings: ServiceSettings
+    records: AsyncRecords
+    jobs: Jobs
+    blobs: Blobs
+
+    @cached_property
+    def secret(self) -> bytes:
+        """The key of all ids. Blocks at first use: Redis need not be up when the process starts."""
+        return ids.installation_secret(self.jobs.redis, self.settings.secret)
+
+    @property
+    def spool(self) -> Path:
+        """Where uploads are received: on the store's file system where that is a folder."""
+        return self.settings.scratch_dir / "spool"
+
+    async def animation(self, identifier: str, owner: str) -> AnimationRecord:
+        """The animation, or the refusal to say whether it exists."""
+        record = await self.records.animation(identifier)
+        if record is None or record.owner != owner:
+            raise Refusal("not-found", f"There is no animation {identifier}. It may have been deleted.")
+        return record
+
+    async def segmentation(self, identifier: str, owner: str) -> SegmentationRecord:
+        """The segmentation, or the refusal to say whether it exists."""
+        return _owned(await self.records.segmentation(identifier), identifier, owner)
+
+    async def awaited(self, record: SegmentationRecord, seconds: float | None) -> SegmentationRecord:
+        """The record once it is no longer live, or as it is after `seconds`."""
+        if not seconds or not record.live:
+            return record
+        return _owned(await self.records.wait(record.id, seconds), record.id, record.owner)
+
+    async def position(self, record: SegmentationRecord) -> int | None:
+        """How many jobs come before it; None where it does not wait."""
+        return await to_thread.run_sync(self.jobs.position, record) if record.status == "queued" else None
+
+
+def _owned(record: SegmentationRecord | None, identifier: str, owner: str) -> SegmentationRecord:
+    if record is None or record.owner != owner:
+        raise Refusal("not-found", f"There is no segmentation {identifier}. It may have been deleted.")
+    return record
+
+
+@asynccontextmanager
+async def opened(settings: ServiceSettings) -> AsyncIterator[Backend]:
+    """The backend, until the process ends."""
+    records = AsyncRecords(settings.redis_location)
+    client = connect(settings.redis_location)
+    jobs = Jobs(client, settings.attempts, settings.job_seconds)
+    try:
+        yield Backend(settings, records, jobs, Blobs.open(settings.store_location, settings.scratch_dir))
+    finally:
+        await records.close()
+        client.close()
+
+
+def backend_of(request: Request) -> Backend:
+    """The process's backend."""
+    backend: Backend = request.app.state.backend
+    return backend
+
+
+Behind = Annotated[Backend, Depends(backend_of)]

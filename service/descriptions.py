@@ -1,0 +1,114 @@
+"""What the OpenAPI description cannot read off the code: raw bodies, query names of parameters, media types."""
+
+from typing import Any
+
+from core.parameters import Parameters
+from service.examples import ANIMATION_ID
+from service.forms import FORMS
+
+_BYTES: dict[str, Any] = {"type": "string", "format": "binary"}
+_FORM: dict[str, Any] = {
+    "type": "object",
+    "properties": {
+        "file": {**_BYTES, "description": "the file; several, where a .gltf refers to others by name"},
+        "name": {"type": "string", "description": "what to call it"},
+    },
+}
+
+FILE_BODY: dict[str, Any] = {
+    "requestBody": {
+        "required": True,
+        "description": "A .glb, .gltf or .npz, judged by its first bytes and never by its type, or a form of files.",
+        "content": {"application/octet-stream": {"schema": _BYTES}, "multipart/form-data": {"schema": _FORM}},
+    }
+}
+
+FILE: dict[int | str, dict[str, Any]] = {
+    200: {"description": "The bytes.", "content": {"application/octet-stream": {"schema": _BYTES}}},
+    206: {"description": "The range of them that was asked for."},
+    304: {"description": "They are those that the client has."},
+}
+
+RESULT: dict[int | str, dict[str, Any]] = {
+    200: {
+        "description": "The result.",
+        "content": {
+            "application/json": {"schema": {"$ref": "#/components/schemas/SegmentationDocument"}},
+            "text/csv": {
+                "schema": {"type": "string"},
+                "example": "name,motion,start,end,start_seconds,end_seconds\nA,0,0,205,0.000000,6.833333\n",
+            },
+            "text/vtt": {
+                "schema": {"type": "string"},
+                "example": "WEBVTT\n\n00:00:00.000 --> 00:00:06.833\nA\n",
+            },
+            FORMS[2].media_type: {"schema": _BYTES},
+        },
+    },
+    202: {"description": "The file is being made; ask again."},
+    304: {"description": "It is the one that the client has."},
+}
+
+EVENTS: dict[int | str, dict[str, Any]] = {
+    200: {
+        "description": "`status` events, each a status document.",
+        "content": {"text/event-stream": {"schema": {"type": "string"}, "example": 'event: status\ndata: {"id": …}\n'}},
+    },
+    204: {"description": "It is over, and the client knows (Last-Event-ID)."},
+}
+
+SUBMITTED: dict[int | str, dict[str, Any]] = {
+    200: {
+        "description": "Done: the status document holds motions and segments.",
+        "content": {"application/json": {"schema": {"$ref": "#/components/schemas/StatusDocument"}}},
+    },
+    202: {"description": "Queued or running; Location says where to ask again."},
+}
+
+WAIT: dict[str, Any] = {
+    "name": "Prefer",
+    "in": "header",
+    "schema": {"type": "string"},
+    "description": "`wait=N`: rather wait up to N seconds, at most 30, than ask again",
+    "example": "wait=30",
+}
+
+
+def parameter_schemas() -> dict[str, dict[str, Any]]:
+    """The JSON Schema of each parameter, by its name."""
+    schemas: dict[str, dict[str, Any]] = Parameters.model_json_schema()["properties"]
+    return schemas
+
+
+def _query(name: str, schema: dict[str, Any]) -> dict[str, Any]:
+    plain = {key: value for key, value in schema.items() if key not in {"weight", "description", "title"}}
+    return {"name": name, "in": "query", "schema": plain, "description": schema.get("description", "")}
+
+
+SUBMISSION: dict[str, Any] = {
+    "parameters": [
+        _query("animation", {"type": "string", "description": "an animation's id, instead of a body"}),
+        _query("name", {"type": "string", "description": "what to call it"}),
+        *(_query(name, schema) for name, schema in parameter_schemas().items()),
+        WAIT,
+    ],
+    "requestBody": {
+        "description": "JSON naming an animation with parameters beside it; or the file itself, or a form of files.",
+        "content": {
+            "application/json": {
+                "schema": {
+                    "type": "object",
+                    "required": ["animation"],
+                    "properties": {
+                        "animation": {"type": "string"},
+                        "name": {"type": "string"},
+                        **parameter_schemas(),
+                    },
+                    "additionalProperties": False,
+                },
+                "example": {"animation": ANIMATION_ID, "motions": 5},
+            },
+            **FILE_BODY["requestBody"]["content"],
+        },
+    },
+}

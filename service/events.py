@@ -1,0 +1,40 @@
+"""Status as server-sent events: each change once, a sign of life every 15 s, the end after the last change."""
+
+from collections.abc import AsyncIterator
+from contextlib import aclosing
+
+from anyio import current_time
+
+from service.backend import Backend
+from service.documents import StatusDocument
+from worker.schema import SegmentationRecord
+
+QUIET_SECONDS = 15.0
+
+
+def event_id(record: SegmentationRecord) -> str:
+    """Names one state of a record: what a client sends back as Last-Event-ID."""
+    return f"{record.updated:.6f}"
+
+
+async def status_events(backend: Backend, identifier: str, last_seen: str) -> AsyncIterator[str]:
+    """The stream's text: `status` events with a status document each; `deleted` where it is deleted meanwhile.
+
+    A state that the client has seen, as its Last-Event-ID says, is not sent again.
+    """
+    yield ": caesura\n\n"
+    spoke = current_time()
+    async with aclosing(backend.records.changes(identifier)) as changes:
+        async for record in changes:
+            if record is None:
+                yield "event: deleted\ndata: {}\n\n"
+                return
+            if event_id(record) != last_seen:
+                last_seen, spoke = event_id(record), current_time()
+                document = StatusDocument.of(record, await backend.position(record))
+                yield f"event: status\nid: {last_seen}\ndata: {document.model_dump_json()}\n\n"
+            elif current_time() - spoke >= QUIET_SECONDS:
+                spoke = current_time()
+                yield ": waiting\n\n"
+            if not record.live:
+                return

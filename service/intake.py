@@ -1,0 +1,100 @@
+"""From files in the spool to an animation that is kept: its header read, its id made of its content."""
+
+import time
+from collections.abc import Iterable
+
+from core.errors import UnsupportedMedia
+from core.formats.header import Header, read_header
+from core.formats.sniffing import SNIFFED, sniff
+from service.backend import Backend
+from service.errors import Refusal
+from service.spool import Part
+from worker import ids, schema
+from worker.schema import AnimationRecord, TakeSummary
+
+LONGEST_NAME = 200
+
+
+def keep(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tuple[AnimationRecord, bool]:
+    """The animation these files are, and whether it is new. Blocks: run it on a thread.
+
+    The same files again are the same animation, whatever they are called now. Raises what the header's reader
+    raises; nothing is kept then.
+    """
+    main = _main(parts)
+    header = _header(backend, main)
+    described = [(part.name, part.bytes, part.sha256) for part in parts]
+    identifier = ids.animation_id(backend.secret, owner, described)
+    kept = backend.jobs.records.animation(identifier)
+    if kept is not None:
+        return kept, False
+    record = AnimationRecord(
+        id=identifier,
+        owner=owner,
+        name=_plain(name or main.name) or f"animation.{header.format}",
+        format=header.format,
+        parts=tuple(
+            schema.Part(name=part.name, key=backend.blobs.adopt(part.path), bytes=part.bytes)
+            for part in [main, *(other for other in parts if other is not main)]
+        ),
+        takes=tuple(TakeSummary.model_validate(take, from_attributes=True) for take in header.takes),
+        vertices=header.vertices,
+        triangles=header.triangles,
+        created=time.time(),
+        used=time.time(),
+    )
+    kept, ours = backend.jobs.records.add_animation(record)
+    if not ours:
+        for part in record.parts:
+            backend.blobs.delete(part.key)
+    return kept, ours
+
+
+def _main(parts: tuple[Part, ...]) -> Part:
+    """The file that holds the animation; the others are what it refers to, by name."""
+    if not parts:
+        raise Refusal("no-file", "The form holds no file. Send one with a filename, as curl -F file=@FILE does.")
+    if len(parts) == 1:
+        return parts[0]
+    twice = _twice(part.name for part in parts)
+    if twice is not None:
+        raise Refusal("duplicate-part", f"Two files of the form are called {twice!r}. Send each once.")
+    readable = [part for part in parts if _is_readable(part)]
+    if len(readable) != 1:
+        names = ", ".join(part.name for part in readable) or "none"
+        raise Refusal(
+            "one-animation", f"An upload is one animation with the files it refers to; readable here: {names}."
+        )
+    return readable[0]
+
+
+def _is_readable(part: Part) -> bool:
+    """Whether it can be the animation itself: a buffer may begin with any bytes, so its name is believed."""
+    if part.name.lower().endswith(".bin"):
+        return False
+    with part.path.open("rb") as file:
+        try:
+            sniff(file.read(SNIFFED))
+        except UnsupportedMedia:
+            return False
+    return True
+
+
+def _header(backend: Backend, part: Part) -> Header:
+    with part.path.open("rb") as file:
+        return read_header(file, part.name, backend.settings.limits)
+
+
+def _twice(names: Iterable[str]) -> str | None:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            return name
+        seen.add(name)
+    return None
+
+
+def _plain(name: str) -> str:
+    """The last step of a path, without what does not print: a name to show, never one to open."""
+    last = name.replace("\\", "/").rpartition("/")[2]
+    return "".join(letter for letter in last if letter.isprintable())[:LONGEST_NAME]

@@ -1,0 +1,97 @@
+"""A finished result in the form that was asked for."""
+
+from collections.abc import Callable
+from contextlib import aclosing
+
+import anyio
+from anyio import to_thread
+from fastapi import Request, Response
+
+from core.document import SegmentationDocument
+from service import exports
+from service.answers import ASK_AGAIN, answer, preference_applied, problem_of
+from service.backend import Backend
+from service.documents import StatusDocument
+from service.errors import Refusal, problem_response
+from service.forms import Form
+from service.preferences import wait_seconds
+from service.ranges import Stored, caching, not_modified, stored_response
+from worker.schema import ExportRecord, SegmentationRecord
+
+EXPORT_WAIT_SECONDS = 5
+
+Writer = Callable[[SegmentationDocument], str]
+WRITERS: dict[tuple[str, str], Writer] = {
+    ("csv", "segments"): exports.segments_csv,
+    ("csv", "frames"): exports.frames_csv,
+    ("vtt", "segments"): exports.segments_vtt,
+}
+
+
+async def result(backend: Backend, request: Request, record: SegmentationRecord, form: Form, table: str) -> Response:
+    """The result, once there is one; 409 while it is made, its own problem where there will be none."""
+    record = await backend.awaited(record, wait_seconds(request))
+    applied = preference_applied(request)
+    if record.live:
+        detail = f"It is {record.status}. Ask again, send Prefer: wait=30, or follow its events."
+        return problem_response({"kind": "request", "code": "not-finished", "detail": detail}, applied)
+    if record.status != "done":
+        return problem_response(problem_of(record), applied)
+    if form.suffix == "npz":
+        return await _made(backend, request, record, form)
+    return await _text(backend, request, record, form, table)
+
+
+async def _text(backend: Backend, request: Request, record: SegmentationRecord, form: Form, table: str) -> Response:
+    """Written here, from the stored document."""
+    write = WRITERS.get((form.suffix, table))
+    if write is None and (form.suffix, table) != ("json", "segments"):
+        raise Refusal("no-such-table", f"{form.suffix} has no table {table!r}; table=frames goes with csv.")
+    headers = {**caching(f"W/{_tag(record, form.suffix, table)}"), "Vary": "Accept", **preference_applied(request)}
+    if not_modified(request, headers["ETag"]):
+        return Response(status_code=304, headers=headers)
+    stored = await backend.records.document(record.id)
+    if stored is None:
+        raise Refusal("not-found", f"There is no segmentation {record.id}. It may have been deleted.")
+    content = stored if write is None else await to_thread.run_sync(_written, write, stored)
+    if form.suffix != "json":
+        headers["Content-Disposition"] = f'inline; filename="{record.id}.{form.suffix}"'
+    return Response(content, headers=headers, media_type=form.media_type)
+
+
+def _written(write: Writer, stored: bytes) -> str:
+    return write(SegmentationDocument.model_validate_json(stored))
+
+
+async def _made(backend: Backend, request: Request, record: SegmentationRecord, form: Form) -> Response:
+    """Made of arrays by a job at the first request, then served as stored."""
+    made = await _export(backend, record.id, form.suffix, wait_seconds(request) or EXPORT_WAIT_SECONDS)
+    applied = preference_applied(request)
+    if made.problem is not None:
+        return problem_response(made.problem, applied)
+    if made.key is None:
+        here = {"Location": f"/v1/segmentations/{record.id}/result.{form.suffix}"}
+        return answer(StatusDocument.of(record), 202, here | applied | ASK_AGAIN)
+    size = await to_thread.run_sync(backend.blobs.size, made.key)
+    name = f"{record.id}.{form.suffix}"
+    stored = Stored(made.key, size, form.media_type, name, _tag(record, form.suffix))
+    return await to_thread.run_sync(stored_response, request, backend.blobs, stored)
+
+
+async def _export(backend: Backend, identifier: str, form: str, seconds: float) -> ExportRecord:
+    """The export, asked for where nobody has yet; as it is after so many seconds."""
+    made = await backend.records.export(identifier, form)
+    if made is None or (made.problem or {}).get("kind") == "worker":
+        made = await to_thread.run_sync(backend.jobs.submit_export, identifier, form)
+    with anyio.move_on_after(seconds):
+        async with aclosing(backend.records.changes(identifier)) as changes:
+            async for _ in changes:
+                made = await backend.records.export(identifier, form) or made
+                if made.key is not None or made.problem is not None:
+                    return made
+    return made
+
+
+def _tag(record: SegmentationRecord, *variant: str) -> str:
+    """Of exactly this form of exactly this computation: a record that is done changes only by being computed anew."""
+    return f'"{"-".join((record.id, f"{record.updated:.6f}", *variant))}"'

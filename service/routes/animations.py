@@ -1,0 +1,79 @@
+"""Uploaded files."""
+
+from typing import Annotated
+
+from anyio import to_thread
+from fastapi import APIRouter, Query, Request, Response
+
+from service.access import Owner
+from service.answers import answer
+from service.backend import Behind
+from service.descriptions import FILE, FILE_BODY
+from service.documents import AnimationDocument, AnimationPage
+from service.errors import Refusal
+from service.intake import keep
+from service.paging import Cursor, Limit, created_before, cursor_of
+from service.ranges import Stored, stored_response
+from service.uploads import received
+from worker.forgetting import forget_animation
+
+MEDIA_TYPES = {"glb": "model/gltf-binary", "gltf": "model/gltf+json", "npz": "application/x-npz"}
+
+router = APIRouter(prefix="/v1/animations", tags=["animations"])
+
+
+@router.post("", status_code=201, response_model=AnimationDocument, openapi_extra=FILE_BODY)
+async def upload(
+    request: Request,
+    backend: Behind,
+    owner: Owner,
+    name: Annotated[str, Query(max_length=1000, description="what to call it")] = "",
+) -> Response:
+    """Upload a file, as the body itself or in a form; the same bytes again are the same animation."""
+    async with received(request, backend.spool, backend.settings.max_upload_bytes) as uploaded:
+        unknown = next((field for field in uploaded.fields if field != "name"), None)
+        if unknown is not None:
+            raise Refusal("unknown-field", f"There is no form field {unknown!r} here. Known: name.", parameter=unknown)
+        called = name or uploaded.fields.get("name", "")
+        record, new = await to_thread.run_sync(keep, backend, owner, uploaded.parts, called)
+    return answer(AnimationDocument.of(record), 201 if new else 200, {"Location": f"/v1/animations/{record.id}"})
+
+
+@router.get("", response_model=AnimationPage)
+async def recent(backend: Behind, owner: Owner, limit: Limit = 20, cursor: Cursor = "") -> Response:
+    """Animations, newest first."""
+    records = await backend.records.animations(owner, limit, created_before(cursor))
+    more = f"/v1/animations?limit={limit}&cursor={cursor_of(records[-1].created)}" if len(records) == limit else None
+    return answer(AnimationPage(animations=tuple(map(AnimationDocument.of, records)), next=more))
+
+
+@router.get("/{identifier}", response_model=AnimationDocument)
+async def one(identifier: str, backend: Behind, owner: Owner) -> Response:
+    """One animation."""
+    return answer(AnimationDocument.of(await backend.animation(identifier, owner)))
+
+
+@router.get("/{identifier}/file", responses=FILE)
+async def file(
+    identifier: str,
+    request: Request,
+    backend: Behind,
+    owner: Owner,
+    part: Annotated[int, Query(ge=0, description="which file of an upload of several; 0: the animation itself")] = 0,
+) -> Response:
+    """The uploaded bytes, whole or by Range."""
+    record = await backend.animation(identifier, owner)
+    if part >= len(record.parts):
+        raise Refusal("not-found", f"The upload has {len(record.parts)} files, numbered from 0; there is no {part}.")
+    chosen = record.parts[part]
+    media_type = "application/octet-stream" if part else MEDIA_TYPES.get(record.format, "application/octet-stream")
+    stored = Stored(chosen.key, chosen.bytes, media_type, chosen.name or record.name, f'"{identifier}-{part}"')
+    return await to_thread.run_sync(stored_response, request, backend.blobs, stored)
+
+
+@router.delete("/{identifier}", status_code=204)
+async def delete(identifier: str, backend: Behind, owner: Owner) -> Response:
+    """Delete the upload and everything derived from it."""
+    record = await backend.animation(identifier, owner)
+    await to_thread.run_sync(forget_animation, backend.jobs, backend.blobs, record)
+    return Response(status_code=204)

@@ -1,0 +1,80 @@
+"""Results, in every form; and what the page plays."""
+
+from typing import Annotated, Literal
+
+from anyio import to_thread
+from fastapi import APIRouter, Query, Request, Response
+
+from service.access import Owner
+from service.answers import answer
+from service.backend import Backend, Behind
+from service.descriptions import FILE, RESULT
+from service.documents import ViewerDocument
+from service.errors import Refusal
+from service.forms import by_accept, by_suffix
+from service.ranges import Stored, stored_response
+from service.results import result
+from worker.schema import ViewerRecord
+
+Table = Annotated[Literal["segments", "frames"], Query(description="csv: a row per segment, or per frame")]
+
+router = APIRouter(prefix="/v1/segmentations/{identifier}", tags=["results"])
+
+
+@router.get("/result", responses=RESULT)
+async def by_header(
+    identifier: str, request: Request, backend: Behind, owner: Owner, table: Table = "segments"
+) -> Response:
+    """The result, in the form that Accept likes best; the segmentation document where anything will do."""
+    form = by_accept(request.headers.get("accept", ""))
+    return await result(backend, request, await backend.segmentation(identifier, owner), form, table)
+
+
+@router.get("/result.{suffix}", responses=RESULT)
+async def by_name(
+    identifier: str, suffix: str, request: Request, backend: Behind, owner: Owner, table: Table = "segments"
+) -> Response:
+    """The result in the form that the address ends in: json, csv, npz or vtt."""
+    form = by_suffix(suffix)
+    return await result(backend, request, await backend.segmentation(identifier, owner), form, table)
+
+
+@router.get("/viewer", response_model=ViewerDocument)
+async def viewer(identifier: str, backend: Behind, owner: Owner) -> Response:
+    """What the page plays, and where it is."""
+    shown = await _shown(backend, identifier, owner)
+    here = f"/v1/segmentations/{identifier}/viewer"
+    addresses = {"model": f"{here}/model", "strain": f"{here}/strain" if shown.strain else None}
+    return answer(ViewerDocument.model_validate({**shown.document, **addresses}))
+
+
+@router.get("/viewer/model", responses=FILE)
+async def model(identifier: str, request: Request, backend: Behind, owner: Owner) -> Response:
+    """The figure: a plain GLB, or blocks of vertices."""
+    shown = await _shown(backend, identifier, owner)
+    media_type = "model/gltf-binary" if shown.document.get("kind") == "gltf" else "application/octet-stream"
+    return await _blob(request, backend, shown.model, media_type)
+
+
+@router.get("/viewer/strain", responses=FILE)
+async def strain(identifier: str, request: Request, backend: Behind, owner: Owner) -> Response:
+    """How strained each patch is at each frame, in blocks."""
+    shown = await _shown(backend, identifier, owner)
+    if shown.strain is None:
+        raise Refusal("not-found", "There is no strain: the animation has no triangles.")
+    return await _blob(request, backend, shown.strain, "application/octet-stream")
+
+
+async def _shown(backend: Backend, identifier: str, owner: str) -> ViewerRecord:
+    record = await backend.segmentation(identifier, owner)
+    if record.analysis is None or record.analysis.viewer is None:
+        raise Refusal("not-finished", f"It is {record.status}: there is nothing to play yet.")
+    return record.analysis.viewer
+
+
+async def _blob(request: Request, backend: Backend, key: str, media_type: str) -> Response:
+    """Blob keys are random and never written twice, so the key's own end is the tag."""
+    name = key.rpartition("/")[2]
+    size = await to_thread.run_sync(backend.blobs.size, key)
+    stored = Stored(key, size, media_type, name, f'"{name}"')
+    return await to_thread.run_sync(stored_response, request, backend.blobs, stored)

@@ -1,0 +1,99 @@
+"""Segmentations: asking for one, following it, cancelling or deleting it."""
+
+import itertools
+from typing import Annotated
+
+from anyio import to_thread
+from fastapi import APIRouter, Header, Query, Request, Response
+from fastapi.responses import StreamingResponse
+
+from core.parameters import Parameters
+from service.access import Owner
+from service.answers import answer, outcome, preference_applied
+from service.backend import Behind
+from service.descriptions import EVENTS, SUBMISSION, SUBMITTED
+from service.documents import SegmentationPage, StatusDocument
+from service.events import event_id, status_events
+from service.intake import keep
+from service.orders import json_order, query_order
+from service.paging import Cursor, Limit, created_before, cursor_of
+from service.preferences import wait_seconds
+from service.submission import submit
+from service.uploads import received
+from worker.forgetting import forget_segmentation
+from worker.schema import SegmentationRecord
+
+router = APIRouter(prefix="/v1/segmentations", tags=["segmentations"])
+
+
+@router.post("", status_code=202, response_model=StatusDocument, responses=SUBMITTED, openapi_extra=SUBMISSION)
+async def create(request: Request, backend: Behind, owner: Owner) -> Response:
+    """Find the motions: of an animation named in JSON or in the query, or of the file that is the body itself.
+
+    The same file and parameters again are the same segmentation, and no second job.
+    """
+    if request.headers.get("content-type", "").partition(";")[0].strip().lower() == "application/json":
+        order = await json_order(request)
+    else:
+        order = query_order(request.query_params)
+    if order.animation:
+        animation = await backend.animation(order.animation, owner)
+        parameters = Parameters.parse(order.parameters)
+    else:
+        Parameters.parse(order.parameters)  # refused before a long upload
+        async with received(request, backend.spool, backend.settings.max_upload_bytes) as upload:
+            order = order.with_fields(upload.fields)
+            parameters = Parameters.parse(order.parameters)
+            animation, _ = await to_thread.run_sync(keep, backend, owner, upload.parts, order.name)
+    record = await to_thread.run_sync(submit, backend, animation, parameters, order.name)
+    return await outcome(backend, request, record)
+
+
+@router.get("", response_model=SegmentationPage)
+async def of_animation(
+    backend: Behind,
+    owner: Owner,
+    animation: Annotated[str, Query(description="the animation's id")],
+    limit: Limit = 20,
+    cursor: Cursor = "",
+) -> Response:
+    """The segmentations of one animation, newest first."""
+    await backend.animation(animation, owner)
+    before = created_before(cursor)
+    known = await backend.records.segmentations(animation)
+    page = list(itertools.islice((r for r in known if before is None or r.created < before), limit))
+    address = f"/v1/segmentations?animation={animation}&limit={limit}&cursor="
+    more = address + cursor_of(page[-1].created) if len(page) == limit else None
+    return answer(SegmentationPage(segmentations=tuple(map(StatusDocument.of, page)), next=more))
+
+
+@router.get("/{identifier}", response_model=StatusDocument)
+async def status(identifier: str, request: Request, backend: Behind, owner: Owner) -> Response:
+    """How far it is; with `Prefer: wait=N`, as soon as it is over, at most N seconds from now."""
+    record = await backend.awaited(await backend.segmentation(identifier, owner), wait_seconds(request))
+    return answer(StatusDocument.of(record, await backend.position(record)), 200, preference_applied(request))
+
+
+@router.get("/{identifier}/events", response_class=StreamingResponse, responses=EVENTS)
+async def events(
+    identifier: str, backend: Behind, owner: Owner, last_event_id: Annotated[str, Header()] = ""
+) -> Response:
+    """The same, live: an event at every change, until it is over."""
+    record = await backend.segmentation(identifier, owner)
+    if not record.live and event_id(record) == last_event_id:
+        return Response(status_code=204)  # tells an EventSource not to come back
+    stream = status_events(backend, identifier, last_event_id)
+    return StreamingResponse(stream, headers={"Cache-Control": "no-store"}, media_type="text/event-stream")
+
+
+@router.delete("/{identifier}", response_model=StatusDocument, responses={204: {"description": "Deleted."}})
+async def cancel_or_delete(identifier: str, backend: Behind, owner: Owner) -> Response:
+    """Cancel it while it is queued or running; delete it, with its result, once it is over."""
+    record = await backend.segmentation(identifier, owner)
+    cancelled: SegmentationRecord | None = None
+    if record.live:
+        cancelled = await to_thread.run_sync(backend.jobs.cancel, identifier)
+    if cancelled is not None:
+        return answer(StatusDocument.of(cancelled))
+    await to_thread.run_sync(forget_segmentation, backend.jobs, backend.blobs, identifier)
+    return Response(status_code=204)

@@ -1,0 +1,41 @@
+"""From an animation and parameters to a segmentation that is queued, or known already."""
+
+import time
+
+from core.formats.takes import choose_take
+from core.parameters import ALGORITHM, Parameters
+from service.backend import Backend
+from worker import ids
+from worker.schema import AnimationRecord, SegmentationRecord
+
+
+def resolved(parameters: Parameters, animation: AnimationRecord) -> Parameters:
+    """The same with the take by its index, so that its name, its index and `longest` are one segmentation.
+
+    Raises `ParameterError` for a take that is not there. What a header does not tell is left to the worker.
+    """
+    takes = animation.takes
+    if not takes:
+        return parameters
+    place = choose_take([take.name for take in takes], parameters.take)
+    if place is None:
+        place = max(range(len(takes)), key=lambda index: takes[index].duration_seconds)
+    return parameters.model_copy(update={"take": takes[place].index})
+
+
+def submit(backend: Backend, animation: AnimationRecord, parameters: Parameters, name: str) -> SegmentationRecord:
+    """The segmentation, queued now or before. Blocks: run it on a thread."""
+    chosen = resolved(parameters, animation)
+    now = time.time()
+    return backend.jobs.submit(
+        SegmentationRecord(
+            id=ids.segmentation_id(backend.secret, animation.id, chosen.canonical(), ALGORITHM),
+            animation=animation.id,
+            owner=animation.owner,
+            name=name or animation.name,
+            parameters=chosen.model_dump(),
+            algorithm=ALGORITHM,
+            created=now,
+            updated=now,
+        )
+    )

@@ -1,0 +1,108 @@
+"""Receiving files: any length, one block in memory, off the event loop, nothing left behind on failure.
+
+A raw body, `curl --data-binary` (whatever type it claims) and a form of one part are the same upload.
+"""
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Protocol
+
+from anyio import CancelScope, to_thread
+from fastapi import Request
+
+from core.errors import LimitExceeded
+from service.multipart import OVERHEAD_BYTES, MultipartBody, boundary
+from service.spool import Part, SpoolFile
+
+BLOCK_BYTES = 2**20
+
+
+@dataclass(frozen=True)
+class Upload:
+    """What came: at least one file, and the fields of the form it came in."""
+
+    parts: tuple[Part, ...]
+    fields: dict[str, str] = field(default_factory=dict)
+
+
+class Body(Protocol):
+    """Takes a body block by block."""
+
+    def feed(self, block: bytes) -> None:
+        """The next bytes."""
+
+    def finish(self) -> tuple[tuple[Part, ...], dict[str, str]]:
+        """The files and the fields."""
+
+    def discard(self) -> None:
+        """Delete what was received."""
+
+
+class RawBody:
+    """The file itself as the body."""
+
+    def __init__(self, folder: Path, name: str) -> None:
+        self._file = SpoolFile(folder, name)
+
+    def feed(self, block: bytes) -> None:
+        """The next bytes of the file."""
+        self._file.write(block)
+
+    def finish(self) -> tuple[tuple[Part, ...], dict[str, str]]:
+        """The file."""
+        return (self._file.finish(),), {}
+
+    def discard(self) -> None:
+        """Delete what was received."""
+        self._file.discard()
+
+
+@asynccontextmanager
+async def received(request: Request, folder: Path, limit: int) -> AsyncIterator[Upload]:
+    """The upload of `request`, in `folder` until the block ends; what is to stay must have been moved by then.
+
+    Raises `LimitExceeded` ("upload-too-large") as soon as `limit` bytes are passed, announced or not.
+    """
+    mark = boundary(request.headers.get("content-type", ""))
+    body: Body = await to_thread.run_sync(
+        lambda: MultipartBody(folder, mark) if mark else RawBody(folder, request.query_params.get("name", ""))
+    )
+    try:
+        async for block in _blocks(request, limit + (OVERHEAD_BYTES if mark else 0), limit):
+            await to_thread.run_sync(body.feed, block)
+        parts, fields = await to_thread.run_sync(body.finish)
+        yield Upload(parts, fields)
+    finally:
+        with CancelScope(shield=True):
+            await to_thread.run_sync(body.discard)
+
+
+async def _blocks(request: Request, most: int, limit: int) -> AsyncIterator[bytes]:
+    """The body in blocks large enough that handing one to a thread costs little."""
+    announced = int(request.headers.get("content-length", 0))
+    if announced > most:
+        raise _too_large(announced, limit)
+    count, block = 0, bytearray()
+    async for chunk in request.stream():
+        count += len(chunk)
+        if count > most:
+            raise _too_large(count, limit)
+        block += chunk
+        if len(block) >= BLOCK_BYTES:
+            yield bytes(block)
+            block.clear()
+    if block:
+        yield bytes(block)
+
+
+def _too_large(actual: int, limit: int) -> LimitExceeded:
+    return LimitExceeded(
+        "upload-too-large",
+        f"The upload is larger than the {limit} bytes this service takes. Send a smaller file, or ask its keeper to "
+        "raise CAESURA_MAX_UPLOAD_BYTES.",
+        limit=limit,
+        actual=actual,
+        setting="CAESURA_MAX_UPLOAD_BYTES",
+    )

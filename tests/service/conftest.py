@@ -1,0 +1,146 @@
+"""The real service: uvicorn in a process of its own, a real Redis, real workers; and small takes to send it."""
+
+import io
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import httpx
+import numpy as np
+import pytest
+
+from tests.animations import performing_bar
+from worker.redis_server import EmbeddedRedis
+
+START_SECONDS = 60
+UPLOAD_LIMIT = 8_000_000
+
+
+@dataclass(frozen=True)
+class Service:
+    """A running service: its address, a client, its data folder, its Redis, and the process id of its web server."""
+
+    url: str
+    http: httpx.Client
+    data: Path
+    redis_url: str
+    pid: int
+
+    def spooled(self):
+        """What uploads have left in the spool."""
+        return list((self.data / "scratch" / "spool").glob("*"))
+
+    def status(self, name):
+        """A line of the web process's /proc status, in bytes."""
+        for line in Path(f"/proc/{self.pid}/status").read_text().splitlines():
+            if line.startswith(f"{name}:"):
+                return int(line.split()[1]) * 1024
+        raise LookupError(name)
+
+
+@contextmanager
+def _process(*command, env):
+    """A child in a group of its own, ended by the group it made."""
+    process = subprocess.Popen(command, env=env, start_new_session=True)
+    try:
+        yield process
+    finally:
+        if process.poll() is None:
+            process.send_signal(signal.SIGTERM)
+        try:
+            process.wait(15)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+
+
+def _free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+@contextmanager
+def _serve(checkout, data, redis_url, workers):
+    port = _free_port()
+    env = {
+        **{name: value for name, value in os.environ.items() if not name.startswith("CAESURA_")},
+        "REDIS_URL": redis_url,
+        "CAESURA_DATA_DIR": str(data),
+        "CAESURA_PORT": str(port),
+        "CAESURA_MAX_UPLOAD_BYTES": str(UPLOAD_LIMIT),
+        "PYTHONPATH": str(checkout),
+    }
+    url = f"http://127.0.0.1:{port}"
+    with _process(sys.executable, "-m", "service", env=env) as web, httpx.Client(base_url=url, timeout=60) as http:
+        _until_ready(web, http)
+        service = Service(url, http, data, redis_url, web.pid)
+        if not workers:
+            yield service
+            return
+        with _process(sys.executable, "-m", "worker", env=env):
+            yield service
+
+
+def _until_ready(web, http):
+    deadline = time.monotonic() + START_SECONDS
+    while time.monotonic() < deadline:
+        assert web.poll() is None, "the web process ended"
+        try:
+            if http.get("/readyz").status_code == 200:
+                return
+        except httpx.TransportError:
+            time.sleep(0.05)
+    raise TimeoutError("the web process did not answer")
+
+
+@pytest.fixture(scope="session")
+def service(checkout, tmp_path_factory):
+    """The whole service, shared by all tests: each sends a take of its own."""
+    folder = tmp_path_factory.mktemp("service")
+    redis = EmbeddedRedis(folder / "redis")
+    redis.start()
+    try:
+        with _serve(checkout, folder, redis.url, workers=True) as running:
+            yield running
+    finally:
+        redis.stop()
+
+
+@pytest.fixture(scope="session")
+def idle(checkout, tmp_path_factory):
+    """A service without workers: whatever it is asked stays queued."""
+    folder = tmp_path_factory.mktemp("idle")
+    redis = EmbeddedRedis(folder / "redis")
+    redis.start()
+    try:
+        with _serve(checkout, folder, redis.url, workers=False) as running:
+            yield running
+    finally:
+        redis.stop()
+
+
+def npz(**arrays):
+    """Arrays as the bytes of an NPZ."""
+    out = io.BytesIO()
+    np.savez(out, **arrays)
+    return out.getvalue()
+
+
+@pytest.fixture(scope="session")
+def take():
+    """Makes the bytes of small takes, a different one for every seed; four segments of three motions, 240 frames."""
+    animation = performing_bar((0, 1, 0, 2), seconds=2.0, rings=12).animation
+    vertices = np.array(animation.vertices(0, animation.frames))
+
+    def make(seed):
+        shift = np.float32([seed, 0, 0])
+        return npz(vertices=vertices + shift, triangles=animation.triangles, frame_rate=np.float64(30))
+
+    return make

@@ -1,0 +1,67 @@
+"""The service says what it offers, what it takes, and whether it can work."""
+
+import pytest
+
+from core.limits import Limits
+from tests.service.conftest import UPLOAD_LIMIT
+
+
+def test_each_method_comes_with_the_schema_of_its_parameters(idle):
+    """Name, description, JSON Schema; the default is one of them."""
+    answer = idle.http.get("/v1/methods").json()
+    names = [method["name"] for method in answer["methods"]]
+    assert answer["default"] in names
+    assert "joint-entropy" in names
+    for method in answer["methods"]:
+        assert method["description"]
+        assert method["parameters"]["properties"]["method"]["const"] == method["name"]
+        assert method["parameters"]["properties"]["motions"]["default"] == "auto"
+
+
+def test_limits_are_those_of_this_installation(idle):
+    """All of them, with the upload's own."""
+    assert idle.http.get("/v1/limits").json() == {**Limits().model_dump(), "max_upload_bytes": UPLOAD_LIMIT}
+
+
+def test_it_is_alive_and_ready(idle):
+    """Both probes answer."""
+    assert idle.http.get("/healthz").json() == {"status": "ok"}
+    assert idle.http.get("/readyz").json() == {"status": "ready"}
+
+
+def test_metrics_are_in_prometheus_form(idle):
+    """Every line is a comment, or a name and a number."""
+    for line in idle.http.get("/metrics").text.splitlines():
+        assert line.startswith("# ") or float(line.rsplit(" ", 1)[1]) >= 0
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "status", "code"),
+    [
+        ("GET", "/nothing", 404, "not-found"),
+        ("PUT", "/v1/animations", 405, "method-not-allowed"),
+        ("GET", "/v1/limits?x=1", 422, "unknown-parameter"),
+        ("GET", "/v1/animations?limit=many", 422, "invalid-parameter"),
+        ("GET", "/v1/animations?limit=1000", 422, "invalid-parameter"),
+        ("GET", "/v1/segmentations", 422, "invalid-parameter"),
+        ("GET", "/v1/segmentations/nothing", 404, "not-found"),
+        ("GET", "/v1/segmentations/nothing/result", 404, "not-found"),
+        ("DELETE", "/v1/segmentations/nothing", 404, "not-found"),
+    ],
+)
+def test_what_goes_wrong_is_a_problem_document(idle, method, path, status, code):
+    """RFC 9457, with a code for programs and a sentence for people."""
+    answer = idle.http.request(method, path)
+    problem = answer.json()
+    assert answer.status_code == problem["status"] == status
+    assert answer.headers["Content-Type"] == "application/problem+json"
+    assert problem["code"] == code
+    assert problem["type"] == f"urn:caesura:problem:{code}"
+    assert problem["title"]
+    assert problem["detail"].endswith(".")
+
+
+def test_a_wrong_method_is_told_the_right_ones(idle):
+    """Allow, as the header and in the sentence."""
+    answer = idle.http.put("/v1/animations")
+    assert "POST" in answer.headers["Allow"]

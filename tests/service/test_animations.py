@@ -1,0 +1,92 @@
+"""Uploaded animations can be listed, read back by Range, and deleted with everything made of them."""
+
+import pytest
+
+
+@pytest.fixture(scope="module")
+def content(take):
+    return take(201)
+
+
+@pytest.fixture(scope="module")
+def animation(service, content):
+    return service.http.post("/v1/animations", params={"name": "bar.npz"}, content=content).json()
+
+
+def test_an_animation_is_found_again(service, animation):
+    """Its own address answers what the upload answered."""
+    assert service.http.get(f"/v1/animations/{animation['id']}").json() == animation
+
+
+def test_an_unknown_animation_is_not_found(service):
+    """404, as a problem document, also for its file and for deleting it."""
+    for method, path in (("GET", ""), ("GET", "/file"), ("DELETE", "")):
+        answer = service.http.request(method, f"/v1/animations/nothing{path}")
+        assert answer.status_code == 404
+        assert answer.json()["code"] == "not-found"
+
+
+def test_animations_are_listed_by_pages_newest_first(service, take):
+    """Following `next` visits every animation once."""
+    ids = [service.http.post("/v1/animations", content=take(seed)).json()["id"] for seed in (202, 203, 204)]
+    page = service.http.get("/v1/animations", params={"limit": 2}).json()
+    listed = [one["id"] for one in page["animations"]]
+    assert listed == ids[:0:-1]
+    while page["next"]:
+        page = service.http.get(page["next"]).json()
+        listed += [one["id"] for one in page["animations"]]
+    assert set(ids) <= set(listed)
+    assert len(set(listed)) == len(listed)
+
+
+def test_a_cursor_that_no_page_gave_is_refused(service):
+    """422, naming the parameter."""
+    answer = service.http.get("/v1/animations", params={"cursor": "!"})
+    assert answer.status_code == 422
+    assert answer.json()["parameter"] == "cursor"
+
+
+def test_the_file_comes_back_as_it_went_in(service, animation, content):
+    """The same bytes, with an ETag that spares sending them again."""
+    answer = service.http.get(f"/v1/animations/{animation['id']}/file")
+    assert answer.content == content
+    assert answer.headers["Accept-Ranges"] == "bytes"
+    assert "bar.npz" in answer.headers["Content-Disposition"]
+    again = service.http.get(answer.request.url, headers={"If-None-Match": answer.headers["ETag"]})
+    assert again.status_code == 304
+    assert again.content == b""
+
+
+@pytest.mark.parametrize(("header", "part"), [("bytes=0-9", slice(0, 10)), ("bytes=100-", slice(100, None))])
+def test_a_range_of_the_file_is_sent_alone(service, animation, content, header, part):
+    """206 with Content-Range; a player seeks so."""
+    answer = service.http.get(f"/v1/animations/{animation['id']}/file", headers={"Range": header})
+    start, end, _ = part.indices(len(content))
+    assert answer.status_code == 206
+    assert answer.content == content[part]
+    assert answer.headers["Content-Range"] == f"bytes {start}-{end - 1}/{len(content)}"
+
+
+def test_a_range_beyond_the_file_is_refused(service, animation):
+    """416."""
+    answer = service.http.get(f"/v1/animations/{animation['id']}/file", headers={"Range": "bytes=999999999-"})
+    assert answer.status_code == 416
+    assert answer.json()["code"] == "range-not-satisfiable"
+
+
+def test_deleting_an_animation_deletes_all_that_was_made_of_it(service, take):
+    """Its segmentations and its blobs are gone; the same file again is a new upload."""
+    content = take(205)
+    status = service.http.post("/v1/segmentations", content=content, headers={"Prefer": "wait=30"}).json()
+    assert status["status"] == "done"
+    service.http.get(f"/v1/segmentations/{status['id']}/result.npz")
+    kept = _blobs(service)
+    assert service.http.delete(f"/v1/animations/{status['animation']}").status_code == 204
+    assert kept - _blobs(service) >= 3  # the upload, its analysis and the export, at least
+    for path in (f"animations/{status['animation']}", f"segmentations/{status['id']}"):
+        assert service.http.get(f"/v1/{path}").status_code == 404
+    assert service.http.post("/v1/animations", content=content).status_code == 201
+
+
+def _blobs(service):
+    return sum(path.is_file() for path in (service.data / "blobs").rglob("*"))

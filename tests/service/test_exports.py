@@ -1,0 +1,24 @@
+"""Text forms: times as players and spreadsheets read them, names that cannot be taken for anything else."""
+
+from core.document import Segment, SegmentationDocument, Source
+from service.exports import segments_csv, segments_vtt
+
+
+def document(name, start=0.0):
+    segment = Segment(start=0, end=2, start_seconds=start, end_seconds=start + 1 / 30, motion=0, name=name)
+    return SegmentationDocument(
+        algorithm="1", method="switching", parameters={}, source=Source(take=0, name="t", fps=30, start_seconds=start),
+        frames=2, frame_rate=30, duration_seconds=1 / 30, motions=1, segments=(segment,), key_frames=(),
+        energy=(None, None),
+    )  # fmt: skip
+
+
+def test_hours_are_written_out():
+    """One hour and a bit, to the millisecond."""
+    assert "01:00:00.500 --> 01:00:00.533" in segments_vtt(document("A", 3600.5))
+
+
+def test_a_name_stays_a_name():
+    """Markup, arrows and line breaks in VTT; commas and quotes in CSV."""
+    assert "a &lt;b&gt; --&gt; c" in segments_vtt(document("a <b>\n\n--> c"))
+    assert segments_csv(document('walk, "fast"')).splitlines()[1].startswith('"walk, ""fast""",0,0,2,')

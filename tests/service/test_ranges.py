@@ -1,0 +1,32 @@
+"""Range headers (RFC 9110, section 14): one range is honoured, none and several mean the whole."""
+
+import pytest
+
+from service.errors import Refusal
+from service.ranges import requested
+
+
+@pytest.mark.parametrize(
+    ("header", "wanted"),
+    [
+        ("bytes=0-0", (0, 1)),
+        ("bytes=10-", (10, 100)),
+        ("bytes=-10", (90, 100)),
+        ("bytes=-1000", (0, 100)),
+        ("bytes=0-999", (0, 100)),
+        ("", None),
+        ("bytes=-", None),
+        ("bytes=0-1,5-6", None),
+        ("lines=0-1", None),
+    ],
+)
+def test_a_range_is_read(header, wanted):
+    """Bytes [start, end) of a hundred, or None for all of them."""
+    assert requested(header, 100) == wanted
+
+
+@pytest.mark.parametrize("header", ["bytes=100-", "bytes=5-4", "bytes=-0"])
+def test_a_range_that_holds_nothing_is_refused(header):
+    """It would be an empty answer that looks like success."""
+    with pytest.raises(Refusal, match="range-not-satisfiable"):
+        requested(header, 100)
