@@ -6,19 +6,22 @@ from core.analysis import Features
 from core.animation import Animation
 from core.blocks import blocks_of, frames_per_block, map_blocks
 from core.body import Body
-from core.descriptors.projection import SAMPLE, Projection, sample_frames
+from core.descriptors.projection import Projection, sample_frames
 from core.drawing import draw_frames
 from core.progress import Progress, ignore
 
 NAMES = ("strain", "pair-distances")
+
+HELD_BYTES = 64 * 2**20
+"""Memory for the whole descriptors of a take; where they do not fit, the sample is drawn beforehand."""
 
 Basis = tuple[Projection, Projection]
 """The components of the patch means of strain, and of the pair distances."""
 
 
 def basis(animation: Animation, body: Body, threads: int = 1, progress: Progress = ignore) -> Basis | None:
-    """Components from about 2,000 evenly spaced frames; None for a shorter take, whose every frame is the sample."""
-    if animation.frames <= SAMPLE:
+    """Components from at most 2,000 evenly spaced frames; None where the descriptors of all frames can be held."""
+    if 4 * animation.frames * (body.patches.patches + len(body.pairs.first)) <= HELD_BYTES:
         return None
     frames = sample_frames(animation.frames)
     blocks = blocks_of(len(frames), frames_per_block(animation.vertex_count))
@@ -34,12 +37,13 @@ def basis(animation: Animation, body: Body, threads: int = 1, progress: Progress
 def features(
     projections: Basis | None, described: tuple[np.ndarray, np.ndarray], changing: tuple[bool, bool]
 ) -> tuple[Features, Features]:
-    """Frames as `described`: already projected where there was a basis, else it is learnt here from all of them.
+    """Frames as `described`: already projected where there was a basis, else it is learnt here from the same sample.
 
     A descriptor that does not change beyond rounding has no columns: its components would be noise.
     """
     if projections is None:
-        projections = (Projection.of(described[0]), Projection.of(described[1]))
+        sample = sample_frames(len(described[0]))
+        projections = (Projection.of(described[0][sample]), Projection.of(described[1][sample]))
         described = (projections[0].project(described[0]), projections[1].project(described[1]))
     strain, distances = (
         Features(name, values if changes else values[:, :0].copy(), projection.energy_share)
