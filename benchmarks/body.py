@@ -10,7 +10,7 @@ from samples.surface import Limb, Surface, skin
 from samples.weights import heat_weights
 
 CELL = 0.0315  # metres: about 5,700 triangles
-SHARPNESS = 0.5  # flesh gives over about the thickness of the limb
+SHARPNESS = 0.4  # flesh gives over somewhat more than the thickness of the limb
 
 # Bone, then two ends: the share of the way along the bone, metres from there, the radius there. Limbs come in pairs.
 Form = tuple[str, float, tuple[float, float, float], float, float, tuple[float, float, float], float]

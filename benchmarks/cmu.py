@@ -24,11 +24,15 @@ class Annotation:
     ranges: tuple[tuple[int, int], ...]
 
     @property
+    def order(self) -> tuple[int, ...]:
+        """The motion of every segment, numbered by first appearance of its label."""
+        numbers = list(dict.fromkeys(self.labels))
+        return tuple(numbers.index(label) for label in self.labels)
+
+    @property
     def frames(self) -> Int[np.ndarray, "frames"]:
-        """The motion of every frame, numbered by first appearance of its label."""
-        numbers = {label: i for i, label in enumerate(dict.fromkeys(self.labels))}
-        lengths = np.diff([0, *self.ends])
-        return np.repeat([numbers[label] for label in self.labels], lengths)
+        """The motion of every frame."""
+        return np.repeat(self.order, np.diff([0, *self.ends]))
 
     @property
     def motions(self) -> int:

@@ -10,7 +10,7 @@ from samples.surface import Limb, Surface, skin
 from samples.weights import heat_weights, strongest
 
 CELL = 0.03  # metres: about 6,000 triangles
-SHARPNESS = 0.8
+SHARPNESS = 0.4
 
 # Joint, from, to, radius there and there: metres, from the joint, in the straight stance. Limbs come in pairs.
 Form = tuple[str, tuple[float, float, float], tuple[float, float, float], float, float]
@@ -32,9 +32,9 @@ PAIRS: tuple[Form, ...] = (
     ("forearm", (0.0, 0.0, 0.0), (0.0, -0.08, 0.0), 0.041, 0.045),
     ("forearm", (0.0, -0.08, 0.0), (0.0, -0.25, 0.01), 0.045, 0.028),
     ("hand", (0.0, -0.02, 0.0), (0.0, -0.085, 0.0), 0.031, 0.036),
-    ("hand", (0.0, -0.085, -0.012), (-0.012, -0.165, -0.008), 0.026, 0.018),
-    ("hand", (0.0, -0.085, 0.012), (-0.012, -0.165, 0.012), 0.026, 0.018),
-    ("hand", (0.0, -0.02, 0.018), (-0.008, -0.085, 0.052), 0.019, 0.016),
+    ("hand", (0.0, -0.085, -0.012), (-0.014, -0.15, -0.01), 0.028, 0.024),
+    ("hand", (0.0, -0.085, 0.012), (-0.014, -0.15, 0.012), 0.028, 0.024),
+    ("hand", (0.0, -0.02, 0.018), (-0.008, -0.08, 0.05), 0.021, 0.02),
     ("thigh", (0.008, -0.02, -0.012), (0.004, -0.14, 0.004), 0.096, 0.09),
     ("thigh", (0.004, -0.14, 0.004), (0.0, -0.415, 0.005), 0.09, 0.056),
     ("shin", (0.0, 0.0, 0.0), (0.0, -0.12, -0.018), 0.055, 0.058),

@@ -28,12 +28,17 @@ def heat_weights(surface: Surface, limbs: list[Limb], bones: int, sharpness: flo
 def strongest(
     weights: Float[np.ndarray, "V bones"],
 ) -> tuple[Int[np.ndarray, "V 4"], Float[np.ndarray, "V 4"]]:
-    """The four strongest bones of each vertex and their weights, which sum to 1; unused places hold bone 0."""
-    order = np.argsort(-weights, axis=1, kind="stable")[:, :INFLUENCES]
+    """The four strongest bones of each vertex and their weights, which sum to 1; unused places hold bone 0.
+
+    What the fifth bone has is taken from all four, so that a bone fades out before it is left out: without that
+    the surface tears where neighbours keep different bones.
+    """
+    order = np.argsort(-weights, axis=1, kind="stable")[:, : INFLUENCES + 1]
     kept = np.take_along_axis(weights, order, axis=1)
+    kept = np.clip(kept[:, :-1] - kept[:, -1:], 0.0, None)
     kept[kept < 1e-3] = 0.0
     kept /= kept.sum(axis=1, keepdims=True)
-    return np.where(kept > 0, order, 0), kept
+    return np.where(kept > 0, order[:, :-1], 0), kept
 
 
 def _owners(surface: Surface, limbs: list[Limb]) -> tuple[Int[np.ndarray, "V"], Float[np.ndarray, "V"]]:
