@@ -11,8 +11,8 @@ import numpy as np
 from jaxtyping import Float, Float32, Int, UInt16
 
 from core import kernels
+from core.kernels import SHIFT
 
-SHIFT = 11
 LOWEST = int(np.float32(2.0**-12).view(np.int32)) >> SHIFT
 CODES = 2**16
 PERCENTILE = 99.9
@@ -34,7 +34,7 @@ class Coding:
     ) -> UInt16[np.ndarray, "columns frames"]:
         """The codes of values ≥ 0, written into `out` where it is given; larger values never have smaller codes."""
         codes = np.empty(values.shape, np.uint16) if out is None else out
-        kernels.encode(values, np.float32(self.gain), np.int32(LOWEST), np.int32(SHIFT), codes)
+        kernels.encode(values, np.float32(self.gain), np.int32(LOWEST), codes)
         return codes
 
     def decode(self, position: float) -> float:

@@ -27,7 +27,7 @@ class Pairing:
         """C_n of every pair in turn, each row a matrix of levels x levels (Eq. 1, times the number of triangles)."""
         counted = [np.zeros((first.shape[1], self.levels**2), np.int32) for first, _ in self.pieces]
         for (first, second), counts in zip(self.pieces, counted, strict=True):
-            kernels.count_pairs(first, second, self.levels, counts)
+            kernels.count_pairs(first, second, np.int32(self.levels), counts)
         return np.concatenate(counted)
 
 

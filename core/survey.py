@@ -48,13 +48,13 @@ class Surveyor:
     def measure(self, block: Block) -> Page:
         """Draw the block, and read every tile of its strain while it is in the cache."""
         vertices = draw(self.animation, block)
-        means, largest = self.body.patches.empty(len(vertices)), np.zeros(len(vertices), np.float32)
-        histogram, above = np.zeros(CODES, np.int64), 0
+        means, histogram = self.body.patches.empty(len(vertices)), np.zeros(CODES, np.int64)
+        largest, above = np.zeros((2, len(vertices)), np.int32)
         kept = np.empty((self.body.surface.columns if self.keep_codes else 0, len(vertices)), np.uint16)
         for columns, tile in self.body.surface.tiles(vertices):
             if self.body.patches.patches:
                 self.body.patches.add(columns, tile, means)
-            above += kernels.largest_and_above(tile, self.noise[columns], largest)
+            kernels.largest_and_above(tile.view(np.int32), self.noise[columns].view(np.int32), largest, above)
             codes = self.coding.encode(tile, kept[columns] if self.keep_codes else None)
             kernels.add_histogram(codes, histogram)
         apart = self.body.pairs.measure(vertices)
@@ -62,7 +62,8 @@ class Surveyor:
         if self.projections is not None:
             described = (self.projections[0].project(means.T), self.projections[1].project(apart))
         widest = float(np.abs(apart).max(initial=0))
-        return Page(kept if self.keep_codes else None, histogram, largest, above, widest, described)
+        kept_codes = kept if self.keep_codes else None
+        return Page(kept_codes, histogram, largest.view(np.float32), int(above.sum()), widest, described)
 
     def codes(self, block: Block) -> UInt16[np.ndarray, "columns frames"]:
         """The codes of the block, drawn again."""

@@ -86,9 +86,10 @@ def strain_tile(
             g = wx * wx + wy * wy + wz * wz
             half = np.float32(0.5) * (e - g)
             most = np.float32(0.5) * (e + g) + np.sqrt(half * half + b * b)
-            least = (e * g - b * b) / max(most, SQUARED_FLOOR)
-            larger[f] = max(most * scale[f], SQUARED_FLOOR)
-            other[f] = max(least * scale[f], SQUARED_FLOOR)
+            least = (e * g - b * b) / (most if most > SQUARED_FLOOR else SQUARED_FLOOR) * scale[f]
+            most *= scale[f]
+            larger[f] = most if most > SQUARED_FLOOR else SQUARED_FLOOR
+            other[f] = least if least > SQUARED_FLOOR else SQUARED_FLOOR
         if measure == LOG:
             for f in range(larger.size):
                 most, least = _ln(larger[f]), _ln(other[f])
