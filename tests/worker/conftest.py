@@ -46,4 +46,4 @@ def take():
 @pytest.fixture(scope="session")
 def long_take():
     """A take that keeps a worker busy for seconds."""
-    return take_npz(order=(0, 1) * 15, seconds=8.0, rings=60)
+    return take_npz(order=(0, 1) * 10, seconds=8.0, rings=60)
