@@ -61,8 +61,10 @@ class Take:
 
     @property
     def seconds(self) -> Float[np.ndarray, "frames"]:
-        """The time of every frame."""
-        return np.arange(len(self.places)) / RATE
+        """The time of every frame, float32 and never rounded down: a last key a hair early would lose its frame."""
+        exact = np.arange(len(self.places)) / RATE
+        near = exact.astype(np.float32)
+        return np.where(near < exact, np.nextafter(near, np.float32(np.inf)), near)
 
 
 def perform(parts: Sequence[Part], random: np.random.Generator) -> Take:

@@ -2,10 +2,10 @@
 
 import json
 import struct
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from hashlib import blake2b
-from typing import Any, Literal
+from typing import Any, Literal, SupportsFloat
 
 import numpy as np
 from jaxtyping import Float, Int, Shaped
@@ -14,8 +14,8 @@ COMPONENTS = {"int8": 5120, "uint8": 5121, "int16": 5122, "uint16": 5123, "uint3
 SHAPES = {(): "SCALAR", (2,): "VEC2", (3,): "VEC3", (4,): "VEC4", (4, 4): "MAT4"}
 VERTEX_DATA, TRIANGLE_DATA = 34962, 34963  # bufferView.target of glTF, section 5.11
 
-Triple = Sequence[float]
-Quadruple = Sequence[float]  # a rotation as x, y, z, w, or a colour as red, green, blue, alpha
+Triple = Iterable[SupportsFloat]
+Quadruple = Iterable[SupportsFloat]  # a rotation as x, y, z, w, or a colour as red, green, blue, alpha
 Path = Literal["translation", "rotation", "scale", "weights"]
 Interpolation = Literal["LINEAR", "STEP", "CUBICSPLINE"]
 
@@ -82,7 +82,11 @@ class GlbWriter:
 
     def material(self, name: str, color: Quadruple, *, metallic: float = 0.0, roughness: float = 0.8) -> int:
         """A plain surface; `color` is linear red, green, blue, alpha in [0, 1]."""
-        surface = {"baseColorFactor": list(color), "metallicFactor": metallic, "roughnessFactor": roughness}
+        surface = {
+            "baseColorFactor": [float(x) for x in color],
+            "metallicFactor": metallic,
+            "roughnessFactor": roughness,
+        }
         return self._add("materials", {"name": name, "pbrMetallicRoughness": surface})
 
     def mesh(self, name: str, primitives: Sequence[Primitive], *, weights: Sequence[float] = ()) -> int:
