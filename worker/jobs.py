@@ -11,9 +11,10 @@ same MULTI that queues or ends it, so an attempt that comes late finds that it i
 """
 
 import logging
+from contextlib import suppress
 from typing import Any
 
-from redis import Redis
+from redis import Redis, WatchError
 from redis.client import Pipeline
 from rq import Queue as RqQueue
 from rq.command import send_stop_job_command
@@ -115,9 +116,10 @@ class Jobs:
             if kept is not None and (kept.problem or {}).get("kind") != "worker":
                 return kept
             pipe.multi()
-            pipe.set(key, ExportRecord().model_dump_json(), ex=FAILURE_SECONDS)
+            pipe.set(key, ExportRecord().model_dump_json(), ex=2 * EXPORT_SECONDS)  # then its job was lost
             self._call("cut", "export", [identifier, form], ids.token(), EXPORT_SECONDS, pipe)
-            pipe.execute()
+            with suppress(WatchError):  # somebody else asked for it in this moment
+                pipe.execute()
         return ExportRecord()
 
     # What workers say.
