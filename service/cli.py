@@ -1,0 +1,28 @@
+"""`caesura`: the command. Each subcommand lives in service/commands."""
+
+import click
+
+from service.commands.demo import demo
+from service.commands.options import dashes
+from service.commands.score import score
+from service.commands.segment import segment
+from service.commands.serve import serve
+from service.commands.submit import submit
+from service.commands.worker import worker
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "token_normalize_func": dashes})
+@click.version_option(package_name="caesura")
+def main() -> None:
+    """Find the motions in a 3D animation: key-frames, labels, cuts and named clips.
+
+    Exit codes: 0 done, 2 wrong usage, 3 bad file, 4 server unreachable or unable.
+    """
+
+
+for command in (serve, worker, segment, submit, score, demo):
+    main.add_command(command)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,77 @@
+"""`caesura demo`: two figures whose motions are known, through the running service."""
+
+import io
+import signal
+from itertools import zip_longest
+
+import click
+
+from core.document import Segment, SegmentationDocument
+from service.commands.labelling import Labelling, agreement
+from service.commands.problems import Command
+from service.commands.progress_bar import ProgressBar
+
+GOOD_ACCURACY = 0.95
+
+
+@click.command(cls=Command)
+@click.option("--once", is_flag=True, help="End after printing.")
+@click.option("--port", type=click.IntRange(0, 65535), default=8000, show_default=True, help="Port; 0: any free one.")
+@click.option("--url", help="A service that is running already; without it, one is started here.")
+@click.pass_context
+def demo(context: click.Context, /, once: bool, port: int, url: str | None) -> None:
+    """Segment two sample figures, compare with what they do, and leave the page open.
+
+    The figures are made here, motion by motion, so their truth is known exactly. Everything goes through the
+    service's API, as any other client would. The exit code is 1 where a figure's frame accuracy is below 0.95.
+    """
+    from service.commands.local_service import local_service
+
+    if url:
+        accuracy = _demonstrate(url)
+    else:
+        with local_service(port) as started:
+            accuracy = _demonstrate(started)
+            if not once:
+                click.echo("Ctrl-C ends it.")
+                signal.pause()
+    context.exit(0 if accuracy >= GOOD_ACCURACY else 1)
+
+
+def _demonstrate(url: str) -> float:
+    """Upload, wait, compare and print, for each figure; the lowest frame accuracy."""
+    from samples.figures import FIGURES, figure
+    from service.commands.client import Client
+
+    accuracies = []
+    with Client(url) as client:
+        for name in FIGURES:
+            sample = figure(name)
+            truth = Labelling.of(sample.truth.document())
+            motions = len({label for _, _, label in truth.segments})
+            with ProgressBar() as progress:
+                glb = io.BytesIO(sample.glb)
+                found = client.segment(glb, f"{name}.glb", {"motions": str(motions)}, progress)
+            accuracy = agreement(Labelling.of(found.model_dump()), truth)["frame_accuracy"]
+            click.echo(_comparison(name, found, truth))
+            click.echo(f"  frame accuracy {accuracy:.3f}, told that there are {motions} motions")
+            click.echo(f"  {url}/view/{found.id}\n")
+            accuracies.append(accuracy)
+    return min(accuracies)
+
+
+def _comparison(name: str, found: SegmentationDocument, truth: Labelling) -> str:
+    """Segments beside the truth, in order."""
+    rows = [f"{name} figure, {found.frames} frames at {found.frame_rate:g} a second", ""]
+    rows.append(f"  {'truth':<32}found")
+    for given, segment in zip_longest(truth.segments, found.segments):
+        rows.append(f"  {_span(*given) if given else '':<32}{_found(segment) if segment else ''}".rstrip())
+    return "\n".join(rows)
+
+
+def _found(segment: Segment) -> str:
+    return _span(segment.start, segment.end, segment.name)
+
+
+def _span(start: int, end: int, label: str) -> str:
+    return f"{start:>5} … {end:>5}  {label}"

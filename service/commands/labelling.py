@@ -1,0 +1,71 @@
+"""Who does what when: a segmentation or a truth as labels of frames, and how well two of them agree."""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from core.errors import InvalidModel
+
+TOLERANCES_SECONDS = (0.5, 0.15)
+
+
+@dataclass(frozen=True)
+class Labelling:
+    """A motion for every frame, and the rate of the frames. Segments tile [0, frames)."""
+
+    frame_rate: float
+    frames: int
+    segments: tuple[tuple[int, int, str], ...]
+
+    @classmethod
+    def read(cls, path: Path) -> "Labelling":
+        """From a segmentation document or a truth: `segments` with start, end and `motion` or `label`."""
+        try:
+            with path.open(encoding="utf-8") as file:
+                return cls.of(json.load(file))
+        except (ValueError, KeyError, TypeError, AttributeError) as wrong:
+            detail = f"{path} is neither a segmentation document nor a truth: {wrong!r}."
+            raise InvalidModel("not-a-labelling", detail) from None
+
+    @classmethod
+    def of(cls, document: dict[str, Any]) -> "Labelling":
+        """The labelling that a parsed document states; raises ValueError where its segments do not tile."""
+        segments = tuple(
+            (int(s["start"]), int(s["end"]), str(s["motion"] if "motion" in s else s["label"]))
+            for s in document["segments"]
+        )
+        bounds = [0] + [end for _, end, _ in segments]
+        if [start for start, _, _ in segments] != bounds[:-1] or bounds[-1] != int(document["frames"]):
+            raise ValueError("the segments do not tile its frames")
+        rate = document["frame_rate"] if "frame_rate" in document else document["fps"]
+        return cls(float(rate), int(document["frames"]), segments)
+
+
+def agreement(found: Labelling, truth: Labelling) -> dict[str, float]:
+    """Frame accuracy under the best matching of labels, adjusted Rand index, boundary F1 at each tolerance."""
+    import numpy as np
+    from core.agreement import adjusted_rand_index, boundary_scores, frame_accuracy
+
+    if (found.frames, found.frame_rate) != (truth.frames, truth.frame_rate):
+        raise InvalidModel(
+            "different-frames",
+            f"The result has {found.frames} frames at {found.frame_rate:g} a second, the truth {truth.frames} at "
+            f"{truth.frame_rate:g}. Compare results of the same take and frame rate.",
+        )
+
+    def labels(of: Labelling) -> Any:
+        names = {name: i for i, name in enumerate(dict.fromkeys(name for _, _, name in of.segments))}
+        return np.concatenate([np.full(end - start, names[name], np.int64) for start, end, name in of.segments])
+
+    def cuts(of: Labelling) -> Any:
+        return np.array([start for start, _, _ in of.segments[1:]], np.int64)
+
+    figures = {
+        "frame_accuracy": float(frame_accuracy(labels(found), labels(truth))),
+        "adjusted_rand_index": float(adjusted_rand_index(labels(found), labels(truth))),
+    }
+    for seconds in TOLERANCES_SECONDS:
+        scores = boundary_scores(cuts(found), cuts(truth), round(seconds * truth.frame_rate))
+        figures[f"boundary_f1_{seconds:g}_s"] = float(scores.f1)
+    return figures

@@ -1,0 +1,49 @@
+"""Every parameter of the method as an option, made from `core.parameters`: one spelling, one description."""
+
+from collections.abc import Callable
+from typing import Annotated, Any, get_args, get_origin
+
+import click
+from pydantic.fields import FieldInfo
+
+from core.parameters import Parameters
+
+
+def parameters(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add an option for each parameter; the command receives those given, as text, among its keyword arguments.
+
+    Names are written with dashes or underscores. Values stay text: `Parameters.parse` judges them, as it does a
+    query string's.
+    """
+    for name, field in reversed(Parameters.model_fields.items()):
+        function = _option(name, field)(function)
+    return function
+
+
+def given(arguments: dict[str, Any]) -> dict[str, str]:
+    """The parameters that were given, out of a command's keyword arguments."""
+    return {name: arguments[name] for name in Parameters.model_fields if arguments[name] is not None}
+
+
+def dashes(token: str) -> str:
+    """`--window_seconds`, as the API spells it, is `--window-seconds`."""
+    return token.replace("_", "-")
+
+
+def _option(name: str, field: FieldInfo) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    flag = f"--{name.replace('_', '-')}"
+    if field.annotation is bool:
+        return click.option(f"{flag}/--no-{flag[2:]}", name, default=None, help=field.description)
+    default = f"{field.description}  [default: {field.default}]"
+    return click.option(flag, name, metavar=_metavar(field.annotation), help=default)
+
+
+def _metavar(annotation: Any) -> str:
+    """What may stand there: `auto|INTEGER` for `Literal["auto"] | int`."""
+    kinds = {int: "INTEGER", float: "NUMBER", str: "TEXT"}
+    if annotation in kinds:
+        return kinds[annotation]
+    parts = get_args(annotation)
+    if get_origin(annotation) is Annotated:
+        parts = parts[:1]  # the rest are rules
+    return "|".join(part if isinstance(part, str) else _metavar(part) for part in parts)

@@ -1,0 +1,58 @@
+"""How a command ends: its exit code, and what was wrong as a sentence or as JSON."""
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+import click
+
+from core.errors import KINDS, CaesuraError, InputError
+
+USAGE = 2
+BAD_FILE = 3
+UNREACHABLE = 4
+
+
+class Unreachable(CaesuraError):
+    """There is no server to talk to, or it cannot do its work."""
+
+    kind = "unreachable"
+
+
+def exit_code(problem: Mapping[str, Any]) -> int:
+    """2 for a parameter, 3 for a file; what is neither, only a server can have said."""
+    kind = problem.get("kind")
+    if kind in {"parameter", "usage"}:
+        return USAGE
+    return BAD_FILE if issubclass(KINDS.get(str(kind), Exception), InputError) else UNREACHABLE
+
+
+def show(problem: Mapping[str, Any], *, as_json: bool, file: str | None = None) -> int:
+    """Say what was wrong, and with which file, on stderr: one sentence, or the problem document; its exit code."""
+    if as_json:
+        click.echo(json.dumps({**problem, "file": file} if file else problem), err=True)
+    else:
+        click.echo(f"caesura: {file + ': ' if file else ''}{problem['detail']} [{problem['code']}]", err=True)
+    return exit_code(problem)
+
+
+class Command(click.Command):
+    """A command that ends as its problem says; with `--json` wrong usage is a problem document too."""
+
+    def make_context(self, info_name: str | None, args: list[str], *rest: Any, **extra: Any) -> click.Context:
+        """Read the options; with `--json` among them, refuse in JSON."""
+        as_json = "--json" in args
+        try:
+            return super().make_context(info_name, args, *rest, **extra)
+        except click.UsageError as refused:
+            if not as_json:
+                raise
+            problem = {"kind": "usage", "code": "usage", "detail": refused.format_message()}
+            raise click.exceptions.Exit(show(problem, as_json=True)) from None
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run; a refusal that the command does not handle itself ends it here."""
+        try:
+            return super().invoke(ctx)
+        except CaesuraError as refused:
+            ctx.exit(show(refused.problem(), as_json=ctx.params.get("as_json", False)))

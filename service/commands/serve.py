@@ -1,0 +1,40 @@
+"""`caesura serve`: everything on one machine."""
+
+import logging
+from typing import Any
+
+import click
+from pydantic import ValidationError
+
+from core.errors import ParameterError
+from service.commands.problems import Command, Unreachable
+
+LOG_FORMAT = "%(asctime)s %(levelname)s %(name)s: %(message)s"
+
+
+@click.command(cls=Command)
+@click.option("--host", help="Address to listen on.  [default: CAESURA_HOST, else 127.0.0.1]")
+@click.option(
+    "--port", type=click.IntRange(0, 65535), help="Port; 0: any free one.  [default: CAESURA_PORT, else 8000]"
+)
+def serve(**given: Any) -> None:
+    """Run the service, its workers and, unless REDIS_URL names one, a Redis-compatible server.
+
+    CAESURA_DATA_DIR is the one folder it writes to. Ctrl-C or SIGTERM ends it, and everything that it started.
+    """
+    from service.settings import ServiceSettings
+    from service.supervisor import serve as supervise
+    from worker.redis_server import ServerUnavailable
+
+    logging.basicConfig(level=logging.INFO, format=LOG_FORMAT)
+    try:
+        settings = ServiceSettings(**{name: value for name, value in given.items() if value is not None})
+        supervise(settings)
+    except ValidationError as refused:
+        first = refused.errors()[0]
+        setting = f"CAESURA_{'_'.join(map(str, first['loc'])).upper()}"
+        raise ParameterError("invalid-setting", f"{setting}: {first['msg']}.") from None
+    except ServerUnavailable as refused:
+        raise Unreachable("redis-unavailable", str(refused)) from None
+    except OSError as refused:
+        raise Unreachable("not-started", f"The service cannot start here: {refused}.") from None
