@@ -16,5 +16,9 @@ class Budget:
 
     def spend(self, size: int) -> None:
         """Count `size` more bytes; raises `LimitExceeded` where that is too much."""
+        self.check(size)
         self.spent += size
-        self._limits.check("max_decoded_bytes", self.spent)
+
+    def check(self, size: int) -> None:
+        """Raise `LimitExceeded` where `size` more bytes would be too much."""
+        self._limits.check("max_decoded_bytes", self.spent + size)

@@ -89,7 +89,7 @@ class Accessors:
     def _layout(self, index: int) -> Layout:
         entry = self._document.accessors[index]
         kind = entry.choice("type", tuple(WIDTHS))
-        return Layout(
+        layout = Layout(
             entry=entry,
             index=index,
             count=entry.whole("count"),
@@ -98,6 +98,10 @@ class Accessors:
             dtype=_component(entry, tuple(COMPONENTS)),
             normalized=entry.flag("normalized"),
         )
+        if "bufferView" not in entry:
+            # Zeros of any number: refused before their count is compared with that of anything else.
+            self._document.budget.check(layout.count * layout.width * layout.dtype.itemsize)
+        return layout
 
     def _place(
         self, entry: Entry, count: int, dtype: np.dtype[np.generic], width: int, vertex_data: bool

@@ -90,6 +90,7 @@ def _outline(document: Document, accessors: Accessors, primitive: Entry) -> Outl
     indices = None
     if "indices" in primitive:
         indices = accessors.layout(primitive.index("indices", len(accessors), "accessors"))
+        accessors.check(indices, vertex_data=False)
     outline = Outline(primitive, mode, layouts, indices, _targets(document, accessors, primitive, position))
     if not outline.vertices or not outline.triangles:
         document.notices.add("primitive-skipped", f"{primitive.pointer} is empty.")
@@ -115,6 +116,7 @@ def _targets(document: Document, accessors: Accessors, primitive: Entry, positio
         layout = accessors.layout(target.index("POSITION", len(accessors), "accessors"))
         if layout.count != position.count or layout.type != "VEC3":
             raise target.refusal(f"The target moves {layout.count} vertices of {position.count}.", name="POSITION")
+        accessors.check(layout, vertex_data=True)
         found.append(layout)
     return tuple(found)
 
