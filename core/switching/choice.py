@@ -7,16 +7,15 @@ from jaxtyping import Bool, Int
 
 from core.switching.separation import separations
 from core.switching.settling import Settled, settle
-from core.switching.signal import Signal
+from core.switching.signal import WINDOW_SECONDS, Signal
 from core.switching.stretches import Stretches
 
-APART = 4.5
-"""Two motions closer than this are one. Halves of a swing, the widest that a single motion splits, are 4.13 apart
-(two halves of an arcsine distribution); measured motions begin near 4."""
-SHORTEST_SECONDS = 2.0
-"""A motion that never lasts so long is a transition: window and cross-fade blur that much."""
+SHORTEST_SECONDS = 1.5 * WINDOW_SECONDS
+"""A motion that never lasts so long is a transition: the window and a cross-fade of half of it blur that much."""
 PATIENCE = 6
-"""So many more motions are tried without finding one that is real."""
+"""So many more motions are tried without finding one that is real, …"""
+FLAT = 0.9
+"""… and for as long as they still take a tenth off the cost: among thirty motions, two groups of them look alike."""
 MOST = 200
 
 
@@ -36,14 +35,14 @@ def choose(signal: Signal, stretches: Stretches, penalty: float) -> Choice:
     stays, because what comes next are halves and transitions. The scores are costs, as shares of that of one motion.
     """
     tried: list[Settled] = []
-    real = 1
-    met = 0
+    real = met = 1
     for count in range(1, min(len(stretches), MOST) + 1):
         tried.append(settle(signal.values, stretches.grouped(count), penalty))
         found = real_motions(signal, tried[-1])
         if found > real:
             real, met = found, count
-        if count >= max(met, real) + PATIENCE:
+        flat = count > PATIENCE and tried[-1].cost > FLAT * tried[-1 - PATIENCE].cost
+        if flat and count >= met + PATIENCE:
             break
     whole = tried[0].cost or 1.0
     scores = tuple((i + 1, settled.cost / whole) for i, settled in enumerate(tried))
@@ -56,7 +55,7 @@ def real_motions(signal: Signal, settled: Settled) -> int:
         return 1
     lasting = _longest(settled.labels, settled.motions) >= signal.steps(SHORTEST_SECONDS)
     apart = separations(signal, settled.labels, settled.motions)
-    return max(_groups(apart[np.ix_(lasting, lasting)] < APART), 1)
+    return max(_groups(apart[np.ix_(lasting, lasting)] < 1), 1)
 
 
 def _longest(labels: Int[np.ndarray, "steps"], count: int) -> Int[np.ndarray, "K"]:
