@@ -83,6 +83,7 @@ async function follow(id, signal) {
 }
 
 function show(result) {
+  shown?.close();
   face('result', status.name);
   $('subject').textContent = [status.name, about(result)].filter(Boolean).join(' · ');
   shown = new Result(result);
@@ -138,6 +139,8 @@ async function route() {
   if (!id) {
     $('subject').textContent = '';
     face('start');
+    shown?.close();
+    shown = null;
     showRecent(openAnimation);
     return;
   }
@@ -153,11 +156,13 @@ function wire() {
   on('next', 'click', () => shown.jump(1));
   on('speed', 'change', (event) => { shown.clock.speed = Number(event.target.value); });
   on('loop', 'change', (event) => shown.loop(event.target.checked));
+  on('frame', 'focus', (event) => event.target.select());
+  on('frame', 'keydown', (event) => { if (event.key === 'Enter' || event.key === 'Escape') event.target.blur(); });
   on('frame', 'change', (event) => {
-    const frame = Number(event.target.value);
-    if (Number.isFinite(frame)) { shown.clock.seek(Math.floor(frame)); shown.span.reveal(shown.clock.frame); }
-    event.target.blur();
+    const frame = event.target.value.replace(/\s/g, '');
+    if (/^\d+$/.test(frame)) { shown.clock.seek(Number(frame)); shown.span.reveal(shown.clock.frame); }
   });
+  on('frame', 'blur', () => shown.clock.tell()); // what was typed and is no frame goes back to the one shown
   on('zoom-in', 'click', () => shown.span.zoom(1.6, shown.clock.frame));
   on('zoom-out', 'click', () => shown.span.zoom(1 / 1.6, shown.clock.frame));
   on('zoom-fit', 'click', () => shown.span.all());

@@ -1,7 +1,7 @@
 // The energy curve, its key-frames and the cuts, over the colours of the motions.
 
 import uPlot from 'uplot';
-import { onceAFrame, onTheme, styled } from './dom.js';
+import { onceAFrame, onResize, onTheme, styled } from './dom.js';
 import { colourOf } from './palette.js';
 import { thinned } from './thinning.js';
 
@@ -11,17 +11,16 @@ const RIGHT = 12;
 export class Curve {
   #plot; #box; #span; #document; #width;
 
-  constructor(box, document, span) {
+  constructor(box, document, span, signal) {
     this.#box = box;
     this.#width = box.clientWidth; // kept, for asking makes the browser lay out the page
     this.#span = span;
     this.#document = document;
     this.refresh = onceAFrame(() => this.#fill());
     span.listen(this.refresh);
-    onTheme(() => this.#draw());
-    this.resize = new ResizeObserver(() => this.#fit());
-    this.resize.observe(box);
+    onTheme(() => this.#draw(), signal);
     this.#draw();
+    onResize(box, () => this.#fit(), signal);
   }
 
   /** Show another cut of the same take. */

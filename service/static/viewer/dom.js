@@ -16,9 +16,16 @@ export function make(tag, properties = {}, ...children) {
 /** A colour of the style sheet, for canvases. */
 export const styled = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-/** Call back when the person's system goes from light to dark or back. */
-export function onTheme(listener) {
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', listener);
+/** Call back when the person's system goes from light to dark or back, until `signal` ends it. */
+export function onTheme(listener, signal) {
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', listener, { signal });
+}
+
+/** Call back when an element changes its size, until `signal` ends it. */
+export function onResize(element, listener, signal) {
+  const observer = new ResizeObserver(listener);
+  observer.observe(element);
+  signal?.addEventListener('abort', () => observer.disconnect());
 }
 
 /** At most one call a screen frame, however often it is asked for. */

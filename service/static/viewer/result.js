@@ -13,23 +13,27 @@ import { Span } from './span.js';
 import { Timeline } from './timeline.js';
 import { tracks } from './tracks.js';
 
+let stage = null; // one for the page: a browser gives out few WebGL contexts
+
 const LATE = 250; // ms after which a wait for blocks is said
 
 export class Result {
-  #stage = null; #wanted = null; #mark; #place; #segment = -1; #look = 'strain'; #late = 0; #ends = [];
+  #gone = new AbortController(); #stage = null; #wanted = null; #mark; #place; #segment = -1; #look = 'strain'; #late = 0; #ends = [];
 
   /** Lay out `document` for the first time. */
   constructor(document) {
+    const { signal } = this.#gone;
     this.clock = new Clock(document.frames, document.frame_rate, (frame) => this.#ready(frame));
     this.span = new Span(document.frames);
     this.#take(document);
-    this.curve = new Curve($('curve'), document, this.span);
+    this.curve = new Curve($('curve'), document, this.span, signal);
     const plot = () => this.curve.plot;
-    this.timeline = new Timeline($('timeline'), document, this.span, plot);
+    this.timeline = new Timeline($('timeline'), document, this.span, plot, signal);
     this.#place = tracks({
       span: this.span, clock: this.clock, plot,
       segmentAt: (frame) => this.document.segments[this.indexAt(frame)],
       seconds: (frame) => this.#seconds(frame),
+      signal,
     });
     this.#say(document);
     this.clock.listen(() => this.#moment());
@@ -46,24 +50,34 @@ export class Result {
     this.#moment();
   }
 
+  /** Leave the page to another take. */
+  close() {
+    this.clock.toggle(false);
+    this.#gone.abort();
+    this.#stage?.clear();
+    this.#stage = null;
+  }
+
   /** Bring the figure onto the stage; without it the rest of the page works all the same. */
   async figure() {
-    const id = this.document.id;
     try {
       this.#tell('Loading the figure …');
-      const viewer = await api.viewer(id);
+      const viewer = await api.viewer(this.document.id);
       const { Stage } = await import('./stage.js');
-      this.#stage ||= new Stage($('figure'));
-      await this.#stage.show(viewer, (share) => this.#tell(`Loading the figure … ${Math.round(100 * share)} %`));
+      stage ||= new Stage($('figure'));
+      await stage.show(viewer, this.#gone.signal, (share) => this.#tell(`Loading the figure … ${Math.round(100 * share)} %`));
+      if (this.#gone.signal.aborted) return;
+      this.#stage = stage;
       this.#tell('');
       $('upright').hidden = viewer.kind !== 'vertices';
-      $('heat').hidden = $('looks').hidden = !this.#stage.strain.present && viewer.skeleton;
+      this.#offerStrain(this.#stage.strain.present);
       this.#stage.canvas.dataset.shown = viewer.kind;
       this.#moment();
     } catch (problem) {
+      if (this.#gone.signal.aborted) return;
       this.#tell(problem.document?.code === 'not-finished'
         ? 'The figure is still being prepared.' : `The figure cannot be shown: ${problem.message}`);
-      if (problem.document?.code === 'not-finished') setTimeout(() => this.document.id === id && this.figure(), 1500);
+      if (problem.document?.code === 'not-finished') setTimeout(() => this.figure(), 1500);
     }
   }
 
@@ -73,6 +87,16 @@ export class Result {
     this.#look = choice;
     $('heat').classList.toggle('off', choice !== 'strain');
     this.#moment();
+  }
+
+  /** Without strain to show (joints alone, or rigid parts) the motions colour the figure. */
+  #offerStrain(present) {
+    const choice = (look) => document.querySelector(`#looks [value=${look}]`);
+    choice('strain').parentElement.hidden = $('heat').hidden = !present;
+    if (!present && choice('strain').checked) {
+      choice('motion').checked = true;
+      this.#look = 'motion';
+    }
   }
 
   /** The segment a frame is in. */

@@ -2,7 +2,7 @@
 
 import { DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { onTheme, styled } from './dom.js';
+import { onResize, onTheme, styled } from './dom.js';
 import { gltfFigure } from './figure_gltf.js';
 import { verticesFigure } from './figure_vertices.js';
 import { Floor } from './floor.js';
@@ -10,7 +10,7 @@ import { Strain } from './strain.js';
 
 export class Stage {
   #renderer; #scene = new Scene(); #camera = new PerspectiveCamera(32, 1, 0.01, 1000); #orbit; #floor = new Floor();
-  #key = new DirectionalLight(0xfff4e6, 2.1); #rim = new DirectionalLight(0xcfe0ff, 0.9); #asked = false;
+  #key = new DirectionalLight(0xfff4e6, 1.7); #rim = new DirectionalLight(0xcfe0ff, 0.9); #asked = false;
   #middle = new Vector3(); #last = new Vector3(); #step = new Vector3();
 
   constructor(canvas) {
@@ -20,23 +20,24 @@ export class Stage {
     this.following = true;
     this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.#scene.add(new HemisphereLight(0xffffff, 0x8d8375, 1.5), this.#key, this.#rim, this.#camera, this.#floor.object);
+    this.#scene.add(new HemisphereLight(0xffffff, 0xb5aa9a, 1.9), this.#key, this.#rim, this.#camera, this.#floor.object);
     this.#scene.add(this.#key.target, this.#rim.target);
     this.#orbit = new OrbitControls(this.#camera, canvas);
     this.#orbit.enableDamping = false;
     this.#orbit.addEventListener('change', () => this.draw());
-    new ResizeObserver(() => this.#fit()).observe(canvas.parentElement);
+    onResize(canvas.parentElement, () => this.#fit());
     onTheme(() => this.#theme());
     this.#theme();
     this.#fit();
   }
 
   /** Load what the service's viewer document names, in place of what was there. */
-  async show(viewer, onProgress = () => {}) {
+  async show(viewer, signal, onProgress = () => {}) {
     const strain = new Strain();
     const colours = viewer.strain ? strain.open(viewer.strain).catch(() => {}) : null; // the figure is worth more than its colours
     const figure = await (viewer.kind === 'gltf' ? gltfFigure : verticesFigure)(viewer, strain, onProgress);
     await colours;
+    if (signal.aborted) return figure.dispose();
     this.clear();
     this.strain = strain;
     this.figure = figure;
@@ -77,7 +78,7 @@ export class Stage {
     const centre = box.getCenter(new Vector3());
     const radius = size.length() / 2 || 1;
     const aspect = Math.min(1, this.#camera.aspect);
-    const distance = (radius * 0.86) / Math.sin((this.#camera.fov * Math.PI) / 360) / aspect;
+    const distance = (radius * 0.97) / Math.sin((this.#camera.fov * Math.PI) / 360) / aspect;
     this.#camera.position.copy(centre).addScaledVector(new Vector3(0.62, 0.26, 0.74).normalize(), distance);
     this.#camera.near = distance / 200;
     this.#camera.far = distance * 60;

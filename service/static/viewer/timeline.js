@@ -1,6 +1,6 @@
 // The motions along the take: one coloured box a segment, named. Drawn on a canvas, so that thousands cost little.
 
-import { onceAFrame, onTheme, sharp, styled } from './dom.js';
+import { onceAFrame, onResize, onTheme, sharp, styled } from './dom.js';
 import { colourOf, fillOf, inkOn } from './palette.js';
 
 const GAP = 1;
@@ -9,15 +9,15 @@ export class Timeline {
   #canvas; #span; #plot; #document; #current = -1;
 
   /** `plot()` says where the curve's plot lies, so that frames stand under each other. */
-  constructor(canvas, document, span, plot) {
+  constructor(canvas, document, span, plot, signal) {
     this.#canvas = canvas;
     this.#document = document;
     this.#span = span;
     this.#plot = plot;
     this.refresh = onceAFrame(() => this.#draw());
     span.listen(this.refresh);
-    onTheme(this.refresh);
-    new ResizeObserver(this.refresh).observe(canvas);
+    onTheme(this.refresh, signal);
+    onResize(canvas, this.refresh, signal);
     this.refresh();
   }
 

@@ -1,12 +1,12 @@
 // Pointer and wheel over the curve and the timeline, and the playhead that runs through both.
 
-import { $ } from './dom.js';
+import { $, onResize } from './dom.js';
 import { clock as clockTime, whole } from './numbers.js';
 
 const WHEEL = 0.0018;
 
 /** Wire the tracks. `segmentAt(frame)` names what lies under the pointer. Answers a function that moves the playhead. */
-export function tracks({ span, clock, plot, segmentAt, seconds }) {
+export function tracks({ span, clock, plot, segmentAt, seconds, signal }) {
   const box = $('tracks');
   const head = $('playhead');
   const hover = $('hover');
@@ -30,26 +30,27 @@ export function tracks({ span, clock, plot, segmentAt, seconds }) {
     hover.style.transform = `translateX(${Math.max(0, Math.min(width - hover.offsetWidth, event.clientX - left + 12))}px)`;
   };
   let held = false;
-  box.addEventListener('pointerdown', (event) => {
+  const on = (name, action, options = {}) => box.addEventListener(name, action, { signal, ...options });
+  on('pointerdown', (event) => {
     if (event.button) return;
     held = true;
     box.setPointerCapture(event.pointerId);
     clock.seek(Math.floor(frameAt(event)));
   });
-  box.addEventListener('pointermove', (event) => {
+  on('pointermove', (event) => {
     tell(event);
     if (held) clock.seek(Math.floor(frameAt(event)));
   });
-  for (const name of ['pointerup', 'pointercancel']) box.addEventListener(name, () => { held = false; });
-  box.addEventListener('pointerleave', () => { hover.hidden = true; });
-  box.addEventListener('dblclick', () => span.all());
-  box.addEventListener('wheel', (event) => {
+  for (const name of ['pointerup', 'pointercancel']) on(name, () => { held = false; });
+  on('pointerleave', () => { hover.hidden = true; });
+  on('dblclick', () => span.all());
+  on('wheel', (event) => {
     event.preventDefault();
     if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) {
       span.pan(((event.deltaX || event.deltaY) / plot().width) * span.length);
     } else span.zoom(Math.exp(-event.deltaY * WHEEL), frameAt(event));
   }, { passive: false });
   span.listen(place);
-  new ResizeObserver(place).observe(box);
+  onResize(box, place, signal);
   return place;
 }

@@ -1,0 +1,84 @@
+"""A real service and a real browser: nothing of the page is tested any other way."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, sync_playwright
+
+SOFTWARE_WEBGL = [
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-lcd-text",
+    "--force-color-profile=srgb",
+    "--hide-scrollbars",
+    "--force-device-scale-factor=1",
+]
+PATIENCE_MS = 30_000
+
+
+@pytest.fixture(scope="session")
+def address(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """Where a service of our own answers, with its workers and its Redis."""
+    vendor = checkout / "service" / "static" / "vendor" / "stamp.txt"
+    if not vendor.is_file():
+        message = "the page's libraries are not fetched: python tools/fetch_assets.py"
+        if os.environ.get("CI") == "true":
+            pytest.fail(message)
+        pytest.skip(message)
+    folder = tmp_path_factory.mktemp("served")
+    environment = {name: value for name, value in os.environ.items() if name != "REDIS_URL"}
+    environment |= {"CAESURA_DATA_DIR": str(folder)}
+    with (folder / "log").open("w") as log:
+        service = subprocess.Popen(
+            [Path(sys.executable).parent / "caesura", "serve", "--port", "0"],
+            env=environment,
+            stdout=subprocess.PIPE,
+            stderr=log,
+            text=True,
+        )
+    assert service.stdout is not None
+    try:
+        announced = service.stdout.readline()
+        assert "http://" in announced, (folder / "log").read_text()
+        yield announced.split()[-1]
+    finally:
+        service.terminate()
+        service.wait(30)
+        service.stdout.close()
+
+
+@pytest.fixture(scope="session")
+def browser(chromium: Path, node: Path) -> Iterator[Browser]:
+    """Debian's Chromium, drawing WebGL in software."""
+    os.environ["PLAYWRIGHT_NODEJS_PATH"] = str(node)
+    with sync_playwright() as playwright:
+        launched = playwright.chromium.launch(executable_path=chromium, headless=True, args=SOFTWARE_WEBGL)
+        yield launched
+        launched.close()
+
+
+@pytest.fixture
+def page(browser: Browser, address: str) -> Iterator[Page]:
+    """A tab of its own. An error that the page itself makes fails the test."""
+    context = browser.new_context(viewport={"width": 1100, "height": 720}, base_url=address)
+    tab = context.new_page()
+    tab.set_default_timeout(PATIENCE_MS)
+    errors: list[str] = []
+    tab.on("pageerror", lambda error: errors.append(str(error)))
+    yield tab
+    context.close()
+    assert not errors
+
+
+@pytest.fixture(scope="session")
+def smooth(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Our own skinned figure, as a file."""
+    path = tmp_path_factory.mktemp("files") / "smooth.glb"
+    # In a process of its own: here every array's shape is checked, which the making of a figure need not wait for.
+    code = "import sys; from samples.figures import figure; sys.stdout.buffer.write(figure('smooth').glb)"
+    path.write_bytes(subprocess.run([sys.executable, "-c", code], check=True, capture_output=True).stdout)
+    return path

@@ -1,0 +1,174 @@
+"""What a person does with the page, done in a browser."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from playwright.sync_api import Page, expect
+
+pytestmark = pytest.mark.timeout(240)
+
+
+def opened(page: Page, file: Path) -> str:
+    """Choose a file on the first page and wait for its result; answers the address."""
+    page.goto("/")
+    page.locator("#drop input").set_input_files(file)
+    expect(page.locator("#curve canvas")).to_be_visible(timeout=90_000)
+    expect(page.locator("#figure")).to_have_attribute("data-shown", re.compile("gltf|vertices"), timeout=30_000)
+    return page.url
+
+
+PIXELS = """([selector, width, height]) => new Promise((resolve) => {
+    document.getElementById('reframe').click();  // draws the figure; its pixels can be read in the frame that drew it
+    requestAnimationFrame(() => {
+        const copy = document.createElement('canvas');
+        Object.assign(copy, { width, height });
+        const context = copy.getContext('2d');
+        context.drawImage(document.querySelector(selector), 0, 0, width, height);
+        resolve(Array.from(context.getImageData(0, 0, width, height).data));
+    });
+})"""
+
+
+def pixels(page: Page, canvas: str) -> np.ndarray:
+    """A canvas as it is on screen, (100, 160, 4): red, green, blue, alpha."""
+    return np.array(page.evaluate(PIXELS, [canvas, 160, 100])).reshape(100, 160, 4)
+
+
+def figure_pixels(page: Page) -> np.ndarray:
+    """The 3D view."""
+    return pixels(page, "#figure")
+
+
+def drawn_share(page: Page, canvas: str) -> float:
+    """The share of a canvas that is not its most frequent colour."""
+    packed = pixels(page, canvas).reshape(-1, 4) @ np.array([2**24, 2**16, 2**8, 1])
+    return float(1 - np.unique(packed, return_counts=True)[1].max() / len(packed))
+
+
+def test_a_file_goes_in_and_its_motions_come_out(page: Page, smooth: Path) -> None:
+    """Upload, stages, then curve, timeline, list and figure, all with something in them."""
+    assert "/view/" in opened(page, smooth)
+    expect(page.locator("#subject")).to_contain_text("smooth.glb")
+    expect(page.locator("#segments li").first).to_be_visible()
+    assert page.locator("#segments li").count() > 1
+    expect(page.locator("#summary")).to_contain_text("motions")
+    assert drawn_share(page, "#timeline") > 0.2
+    assert drawn_share(page, "#curve canvas") > 0.05
+
+
+def test_the_figure_is_drawn_and_strain_colours_it(page: Page, smooth: Path) -> None:
+    """There are opaque pixels in the 3D view, and warm ones as soon as the body bends."""
+    opened(page, smooth)
+    page.locator("#frame").fill("60")
+    page.locator("#frame").press("Enter")
+    page.wait_for_timeout(500)
+    strained = figure_pixels(page)
+    body = strained[..., 3] > 250
+    assert 0.02 < body.mean() < 0.6
+    page.get_by_text("Plain", exact=True).click()
+    plain = figure_pixels(page)
+    changed = (np.abs(strained[..., :3] - plain[..., :3]).max(axis=2) > 12) & body
+    assert changed.sum() > 5
+
+
+def test_playing_moves_the_frame_the_playhead_and_the_body(page: Page, smooth: Path) -> None:
+    """The space bar starts and stops it."""
+    opened(page, smooth)
+    page.locator("#frame").fill("0")
+    page.locator("#frame").press("Enter")
+    still = figure_pixels(page)
+    page.keyboard.press("Space")
+    expect(page.locator("#frame")).to_have_value(re.compile(r"^(1[6-9]|[2-9]\d|\d{3,})$"))
+    page.keyboard.press("Space")
+    frame = int(page.locator("#frame").input_value())
+    page.wait_for_timeout(300)
+    assert int(page.locator("#frame").input_value()) == frame
+    assert np.abs(figure_pixels(page) - still).max() > 30
+    assert f"frame={frame}" in page.url
+
+
+def test_a_segment_is_one_click_away(page: Page, smooth: Path) -> None:
+    """Clicking a row goes to the segment's first frame."""
+    opened(page, smooth)
+    row = page.locator("#segments button").nth(1)
+    row.click()
+    start = re.sub(r"\D", "", row.locator(".from").inner_text())
+    expect(page.locator("#frame")).to_have_value(start)
+    expect(row).to_have_attribute("aria-current", "true")
+
+
+def test_another_number_of_motions_is_shown_in_place(page: Page, smooth: Path) -> None:
+    """Asking for two motions cuts again and shows two, without another look at the figure."""
+    address = opened(page, smooth)
+    page.locator("#motions").fill("2")
+    page.locator("#motions").press("Enter")
+    expect(page.locator("#summary")).to_contain_text("2 motions", timeout=30_000)
+    page.wait_for_url(lambda url: url.split("#")[0] != address.split("#")[0])
+
+
+def test_a_result_opens_by_its_address_at_a_moment(page: Page, smooth: Path) -> None:
+    """/view/{id}#frame=… shows that frame."""
+    address = opened(page, smooth).split("#")[0]
+    page.goto("/")
+    page.goto(f"{address}#frame=321")
+    expect(page.locator("#frame")).to_have_value("321")
+    expect(page.locator("#timeline")).to_have_attribute("aria-valuenow", "321")
+
+
+def test_recent_animations_are_listed_and_open(page: Page, smooth: Path) -> None:
+    """The first page remembers."""
+    opened(page, smooth)
+    page.goto("/")
+    page.locator("#recent .animation", has_text="smooth.glb").first.click()
+    expect(page.locator("#curve canvas")).to_be_visible()
+
+
+def test_a_hostile_file_is_refused_in_a_sentence(page: Page, tmp_path: Path) -> None:
+    """What is wrong is said to a person, and there is a way on."""
+    file = tmp_path / "page.glb"
+    file.write_text("<!doctype html><title>Not found</title>")
+    page.goto("/")
+    page.locator("#drop input").set_input_files(file)
+    expect(page.locator("#refused-detail")).to_be_visible()
+    sentence = page.locator("#refused-detail").inner_text()
+    assert len(sentence) > 20
+    assert sentence.rstrip().endswith(".")
+    assert "Traceback" not in sentence
+    expect(page.get_by_role("link", name="Open another file")).to_be_visible()
+
+
+def test_an_address_of_nothing_says_so(page: Page) -> None:
+    """A link that has expired is not a blank page."""
+    page.goto("/view/aaaaaaaaaaaaaaaaaaaaaaaaaa")
+    expect(page.locator("#refused-detail")).to_be_visible()
+
+
+def test_a_vertex_sequence_plays_from_its_blocks(page: Page, tmp_path: Path) -> None:
+    """An NPZ of vertices is drawn, and its last block is reached by Range."""
+    n, frames = 24, 150
+    x, z = np.meshgrid(np.linspace(-1, 1, n), np.linspace(-1, 1, n))
+    time = np.arange(frames)[:, None, None] / 30
+    wave = 0.3 * np.sin(3 * x + 4 * time) * np.where(time < 2.5, 1, 0.2)
+    vertices = np.stack([np.broadcast_to(x, wave.shape), wave, np.broadcast_to(z, wave.shape)], axis=-1)
+    i = np.arange(n * n).reshape(n, n)
+    a, b, c, d = i[:-1, :-1].ravel(), i[:-1, 1:].ravel(), i[1:, :-1].ravel(), i[1:, 1:].ravel()
+    triangles = np.concatenate([np.stack([a, c, b], 1), np.stack([b, c, d], 1)])
+    file = tmp_path / "cloth.npz"
+    np.savez(file, vertices=vertices.reshape(frames, -1, 3).astype(np.float32), triangles=triangles, frame_rate=30.0)
+    opened(page, file)
+    assert page.locator("#figure").get_attribute("data-shown") == "vertices"
+    first = figure_pixels(page)
+    assert (first[..., 3] > 250).mean() > 0.02
+    page.keyboard.press("End")
+    expect(page.locator("#frame")).to_have_value(str(frames - 1))
+    page.wait_for_timeout(500)
+    assert np.abs(figure_pixels(page) - first).max() > 30
+
+
+def test_the_page_fits_a_phone(page: Page, smooth: Path) -> None:
+    """Nothing sticks out to the side at 360 pixels."""
+    page.set_viewport_size({"width": 360, "height": 740})
+    opened(page, smooth)
+    assert page.evaluate("document.documentElement.scrollWidth") <= 360
