@@ -41,7 +41,6 @@ def keep(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tu
         vertices=header.vertices,
         triangles=header.triangles,
         created=time.time(),
-        used=time.time(),
     )
     kept, ours = backend.jobs.records.add_animation(record)
     if not ours:

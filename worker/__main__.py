@@ -46,7 +46,13 @@ def run(settings: WorkerSettings, groups: list[list[str]]) -> None:
     from worker.warming import warm  # noqa: PLC0415
 
     warm()
-    Pool(groups, lambda queues: _work(queues, settings), Jobs.open(settings).reconcile, settings.stop_seconds).run()
+    jobs = Jobs.open(settings)
+
+    def tend() -> None:
+        jobs.reconcile()
+        jobs.sweep_sometimes()
+
+    Pool(groups, lambda queues: _work(queues, settings), tend, settings.stop_seconds).run()
 
 
 def _work(queues: list[str], settings: WorkerSettings) -> None:

@@ -22,10 +22,15 @@ def forget_animation(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> No
     """Delete an upload and everything derived from it."""
     for segmentation in jobs.records.segmentations(animation.id):
         forget_segmentation(jobs, blobs, segmentation.id)
+    forget_files(jobs, blobs, animation)
+    jobs.records.delete_animation(animation)
+
+
+def forget_files(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
+    """Delete an upload's files and what was computed from them; results stay."""
     for digest, analysis in jobs.records.analyses(animation.id).items():
         for key in analysis.blobs():
             blobs.delete(key)
         jobs.records.delete_analysis(animation.id, digest)
     for part in animation.parts:
         blobs.delete(part.key)
-    jobs.records.delete_animation(animation)

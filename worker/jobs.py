@@ -11,6 +11,7 @@ same MULTI that queues or ends it, so an attempt that comes late finds that it i
 """
 
 import logging
+import time
 from contextlib import suppress
 from typing import Any
 
@@ -33,8 +34,9 @@ __all__ = ["Jobs", "TimeLimit", "worker_problem"]
 log = logging.getLogger(__name__)
 
 QUEUES: tuple[Queue, ...] = ("analyse", "cut")
-TASKS = {"analyse": "worker.tasks.run_analyse", "cut": "worker.tasks.run_cut", "export": "worker.tasks.run_export"}
+TASKS = {name: f"worker.tasks.run_{name}" for name in (*QUEUES, "export", "sweep")}
 EXPORT_SECONDS = 120
+SWEEP_SECONDS = 3600
 RESULT_SECONDS = 60  # how long RQ remembers what our record knows anyway
 FAILURE_SECONDS = 24 * 3600
 
@@ -168,6 +170,13 @@ class Jobs:
         problem = worker_problem("worker-lost", "The worker was lost while it worked on this. Please try again.")
         return sum(self.again(missing[token].id, token, problem) is not None for token in lost)
 
+    def sweep_sometimes(self) -> None:
+        """Queue a look for what is kept too long, where nobody has within the last hour. Call it at any time."""
+        if self.redis.set(schema.SWEPT_KEY, b"1", nx=True, ex=SWEEP_SECONDS):
+            with self.redis.pipeline() as pipe:
+                self._call("cut", "sweep", [], ids.token(), SWEEP_SECONDS, pipe)
+                pipe.execute()
+
     def _attended(self, record: SegmentationRecord) -> bool:
         if record.status == "running":
             return bool(self.redis.exists(schema.lease_key(record.token)))
@@ -186,6 +195,7 @@ class Jobs:
     def _enqueue(self, pipe: Pipeline, record: SegmentationRecord) -> None:
         if record.status == "queued":
             self._call(record.queue, record.queue, [record.id, record.token], record.token, self._seconds, pipe)
+            pipe.zadd(schema.USED_KEY, {record.animation: time.time()}, xx=True)
 
     def _call(self, queue: Queue, task: str, args: list[str], job_id: str, seconds: int, pipe: Any) -> None:
         self._queues[queue].enqueue_call(
@@ -195,7 +205,7 @@ class Jobs:
             timeout=seconds,
             result_ttl=RESULT_SECONDS,
             failure_ttl=FAILURE_SECONDS,
-            description=f"{task} {args[0]}",
+            description=" ".join([task, *args[:1]]),
             pipeline=pipe,
         )
 

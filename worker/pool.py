@@ -14,7 +14,7 @@ from worker.lifeline import die_with, parent_is_gone
 log = logging.getLogger(__name__)
 
 LOOK_SECONDS = 0.1
-RECONCILE_SECONDS = 5.0
+TEND_SECONDS = 5.0
 RESTART_SECONDS = 1.0
 KILL_SECONDS = 5.0
 
@@ -22,15 +22,15 @@ Work = Callable[[list[str]], None]
 
 
 class Pool:
-    """One child per list of queues, each running `work(queues)`; `reconcile` is called every few seconds.
+    """One child per list of queues, each running `work(queues)`; `tend` is called every few seconds.
 
     The first SIGTERM or SIGINT lets running jobs end within `stop_seconds`; then they are handed back.
     """
 
-    def __init__(self, groups: list[list[str]], work: Work, reconcile: Callable[[], int], stop_seconds: float) -> None:
+    def __init__(self, groups: list[list[str]], work: Work, tend: Callable[[], None], stop_seconds: float) -> None:
         self._groups = groups
         self._work = work
-        self._reconcile = reconcile
+        self._tend = tend
         self._stop_seconds = stop_seconds
         self._children: dict[int, list[str]] = {}
         self._restarts: list[tuple[float, list[str]]] = []
@@ -48,10 +48,10 @@ class Pool:
             time.sleep(LOOK_SECONDS)
             self._bury()
             self._revive()
-            if time.monotonic() - looked >= RECONCILE_SECONDS:
+            if time.monotonic() - looked >= TEND_SECONDS:
                 looked = time.monotonic()
-                with suppress(RedisError):  # the workers wait for it too
-                    self._reconcile()
+                with suppress(RedisError, OSError):  # out of reach, or the disk is full: the workers meet it too
+                    self._tend()
         self._end()
 
     def _start(self, queues: list[str]) -> None:

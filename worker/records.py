@@ -36,15 +36,34 @@ class Records:
     def add_animation(self, record: AnimationRecord) -> tuple[AnimationRecord, bool]:
         """Keep a new animation: (the record that is kept, whether it is this one).
 
-        Where it was there before, the stored record is answered; the caller then deletes its own blobs.
+        Where it was there before, with its files, the stored record is answered; the caller then deletes its own.
         """
-        if not self.redis.set(schema.animation_key(record.id), record.model_dump_json(), nx=True):
-            kept = self.animation(record.id)
-            if kept is not None:
-                return kept, False
-            return self.add_animation(record)
-        self.redis.zadd(schema.animations_key(record.owner), {record.id: record.created})
-        return record, True
+        key = schema.animation_key(record.id)
+        with self.redis.pipeline() as pipe:
+            while True:
+                pipe.watch(key)
+                kept = _animation(pipe.get(key))
+                if kept is not None and kept.parts:
+                    return kept, False
+                pipe.multi()
+                pipe.set(key, record.model_dump_json())
+                pipe.zadd(schema.animations_key(record.owner), {record.id: record.created})
+                pipe.zadd(schema.USED_KEY, {record.id: record.created})
+                try:
+                    pipe.execute()
+                except redis.WatchError:
+                    continue
+                return record, True
+
+    def strip_animation(self, record: AnimationRecord) -> None:
+        """Forget where its files were: they are gone."""
+        self.redis.set(
+            schema.animation_key(record.id), record.model_copy(update={"parts": ()}).model_dump_json(), xx=True
+        )
+
+    def uses(self) -> dict[str, float]:
+        """When each animation was used last: uploaded, or asked to be cut."""
+        return {name: score for (name,), score in ((_names([n]), s) for n, s in self.redis.zscan_iter(schema.USED_KEY))}
 
     def animation(self, identifier: str) -> AnimationRecord | None:
         """The animation, or None."""
@@ -55,6 +74,7 @@ class Records:
         with self.redis.pipeline() as pipe:
             pipe.delete(schema.animation_key(record.id))
             pipe.zrem(schema.animations_key(record.owner), record.id)
+            pipe.zrem(schema.USED_KEY, record.id)
             pipe.execute()
 
     # Analyses.

@@ -5,6 +5,7 @@
 | caesura:secret | string | key of all ids |
 | caesura:animation:ID | string | AnimationRecord, JSON |
 | caesura:animations:OWNER | sorted set | ids of animations by time of creation |
+| caesura:used | sorted set | ids of all animations by the time of their last use |
 | caesura:segmentation:ID | string | SegmentationRecord, JSON |
 | caesura:segmentation:ID:document | string | the result document, JSON |
 | caesura:segmentation:ID:energy | string | little-endian float32, one per frame, NaN where there is none |
@@ -15,6 +16,7 @@
 | caesura:analysis:ANIMATION:DIGEST | string | AnalysisRecord, JSON |
 | caesura:analyses:ANIMATION | set | the digests of an animation's analyses |
 | caesura:export:ID:FORMAT | string | ExportRecord, JSON |
+| caesura:swept | string, expires | somebody looked lately for what is kept too long |
 | caesura:changed:ID | channel | told at every change of a segmentation or its exports |
 """
 
@@ -29,6 +31,8 @@ Status = Literal["queued", "running", "done", "failed", "cancelled"]
 Queue = Literal["analyse", "cut"]
 
 LIVE_KEY = "caesura:live"
+USED_KEY = "caesura:used"
+SWEPT_KEY = "caesura:swept"
 
 
 def animation_key(identifier: str) -> str:
@@ -99,7 +103,10 @@ class TakeSummary(_Record):
 
 
 class AnimationRecord(_Record):
-    """An uploaded file. `created` and `used` are seconds since 1970."""
+    """An uploaded file. `created` is in seconds since 1970. Without parts, its files were kept long enough and are
+
+    gone; the record stays for its results, and the same bytes uploaded again take its place.
+    """
 
     id: str
     owner: str = ""
@@ -110,7 +117,6 @@ class AnimationRecord(_Record):
     vertices: int | None = None
     triangles: int | None = None
     created: float
-    used: float = 0.0
 
 
 class ViewerRecord(_Record):

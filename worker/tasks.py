@@ -14,8 +14,11 @@ from worker.blobs import BlobMissing, Blobs
 from worker.cpu import available_threads
 from worker.jobs import Jobs
 from worker.mapping import mapped_parts, scratch_space
+from worker.retention import sweep
 from worker.schema import AnalysisRecord, AnimationRecord, ViewerRecord
 from worker.settings import WorkerSettings
+
+DAY = 24 * 3600.0
 
 
 def run_analyse(identifier: str, token: str) -> None:
@@ -36,6 +39,13 @@ def run_export(identifier: str, form: str) -> None:
     exports.run(
         Jobs.open(settings).records, Blobs.open(settings.store_location, settings.scratch_dir), identifier, form
     )
+
+
+def run_sweep() -> None:
+    """Forget what is kept too long."""
+    settings = WorkerSettings()
+    blobs = Blobs.open(settings.store_location, settings.scratch_dir)
+    sweep(Jobs.open(settings), blobs, settings.keep_upload_days * DAY, settings.keep_result_days * DAY)
 
 
 def _analyse(attempt: Attempt, settings: WorkerSettings) -> None:
@@ -105,6 +115,6 @@ def _finish(attempt: Attempt, stored: AnalysisRecord, analysis: Analysis, parame
 
 def _animation(attempt: Attempt) -> AnimationRecord:
     found = attempt.records.animation(attempt.record.animation)
-    if found is None:
+    if found is None or not found.parts:
         raise BlobMissing(attempt.record.animation)
     return found
