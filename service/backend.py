@@ -1,13 +1,14 @@
 """What lies behind the routes: records, queue and store, opened once for the life of the process."""
 
-from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
-from dataclasses import dataclass
+import math
+from collections.abc import AsyncIterator, Iterator
+from contextlib import aclosing, asynccontextmanager, contextmanager
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Annotated
 
-from anyio import to_thread
+from anyio import CancelScope, move_on_after, to_thread
 from fastapi import Depends, Request
 
 from service.errors import Refusal
@@ -27,6 +28,7 @@ class Backend:
     records: AsyncRecords
     jobs: Jobs
     blobs: Blobs
+    _waits: set[CancelScope] = field(default_factory=set)
 
     @cached_property
     def secret(self) -> bytes:
@@ -47,23 +49,40 @@ class Backend:
 
     async def segmentation(self, identifier: str, owner: str) -> SegmentationRecord:
         """The segmentation, or the refusal to say whether it exists."""
-        return _owned(await self.records.segmentation(identifier), identifier, owner)
+        record = await self.records.segmentation(identifier)
+        if record is None or record.owner != owner:
+            raise Refusal("not-found", f"There is no segmentation {identifier}. It may have been deleted.")
+        return record
+
+    @contextmanager
+    def patience(self, seconds: float = math.inf) -> Iterator[CancelScope]:
+        """A wait of at most `seconds`; ended before where the process is told to stop."""
+        with move_on_after(seconds) as scope:
+            self._waits.add(scope)
+            try:
+                yield scope
+            finally:
+                self._waits.discard(scope)
+
+    def stop_waiting(self) -> None:
+        """End every wait now."""
+        for scope in self._waits:
+            scope.cancel()
 
     async def awaited(self, record: SegmentationRecord, seconds: float | None) -> SegmentationRecord:
         """The record once it is no longer live, or as it is after `seconds`."""
         if not seconds or not record.live:
             return record
-        return _owned(await self.records.wait(record.id, seconds), record.id, record.owner)
+        with self.patience(seconds):
+            async with aclosing(self.records.changes(record.id)) as changes:
+                async for now in changes:
+                    if now is None or not now.live:
+                        break
+        return await self.segmentation(record.id, record.owner)
 
     async def position(self, record: SegmentationRecord) -> int | None:
         """How many jobs come before it; None where it does not wait."""
         return await to_thread.run_sync(self.jobs.position, record) if record.status == "queued" else None
-
-
-def _owned(record: SegmentationRecord | None, identifier: str, owner: str) -> SegmentationRecord:
-    if record is None or record.owner != owner:
-        raise Refusal("not-found", f"There is no segmentation {identifier}. It may have been deleted.")
-    return record
 
 
 @asynccontextmanager

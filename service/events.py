@@ -25,7 +25,11 @@ async def status_events(backend: Backend, identifier: str, last_seen: str) -> As
     yield ": caesura\n\n"
     spoke = current_time()
     async with aclosing(backend.records.changes(identifier)) as changes:
-        async for record in changes:
+        while True:
+            with backend.patience() as patience:
+                record = await anext(changes)
+            if patience.cancelled_caught:
+                return
             if record is None:
                 yield "event: deleted\ndata: {}\n\n"
                 return

@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from contextlib import aclosing
 
-import anyio
 from anyio import to_thread
 from fastapi import Request, Response
 
@@ -83,7 +82,7 @@ async def _export(backend: Backend, identifier: str, form: str, seconds: float) 
     made = await backend.records.export(identifier, form)
     if made is None or (made.problem or {}).get("kind") == "worker":
         made = await to_thread.run_sync(backend.jobs.submit_export, identifier, form)
-    with anyio.move_on_after(seconds):
+    with backend.patience(seconds):
         async with aclosing(backend.records.changes(identifier)) as changes:
             async for _ in changes:
                 made = await backend.records.export(identifier, form) or made

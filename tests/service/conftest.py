@@ -67,7 +67,8 @@ def _free_port():
 
 
 @contextmanager
-def _serve(checkout, data, redis_url, workers):
+def serve(checkout, data, redis_url, workers):
+    """A web process, with workers beside it or without, until the block ends."""
     port = _free_port()
     env = {
         **{name: value for name, value in os.environ.items() if not name.startswith("CAESURA_")},
@@ -107,7 +108,7 @@ def service(checkout, tmp_path_factory):
     redis = EmbeddedRedis(folder / "redis")
     redis.start()
     try:
-        with _serve(checkout, folder, redis.url, workers=True) as running:
+        with serve(checkout, folder, redis.url, workers=True) as running:
             yield running
     finally:
         redis.stop()
@@ -120,7 +121,7 @@ def idle(checkout, tmp_path_factory):
     redis = EmbeddedRedis(folder / "redis")
     redis.start()
     try:
-        with _serve(checkout, folder, redis.url, workers=False) as running:
+        with serve(checkout, folder, redis.url, workers=False) as running:
             yield running
     finally:
         redis.stop()

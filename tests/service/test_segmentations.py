@@ -2,8 +2,10 @@
 
 import json
 import subprocess
+from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 
+import httpx
 import pytest
 
 from tests.service.conftest import npz
@@ -178,3 +180,17 @@ def test_events_tell_of_a_cancel(idle, take):
                 if len(seen) == 1:
                     idle.http.delete(f"/v1/segmentations/{identifier}")
     assert seen == ["queued", "cancelled"]
+
+
+def test_many_at_once_are_one(service, take):
+    """The same new file from eight clients in the same moment: one animation, one segmentation, one result."""
+    content = take(311)
+
+    def post(_):
+        return httpx.post(f"{service.url}/v1/segmentations", content=content, headers=PREFER, timeout=60)
+
+    with ThreadPoolExecutor(8) as clients:
+        answers = list(clients.map(post, range(8)))
+    assert {answer.status_code for answer in answers} == {200}
+    assert len({answer.text for answer in answers}) == 1
+    assert not service.spooled()

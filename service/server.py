@@ -1,0 +1,30 @@
+"""The HTTP server, which tells those who wait that it is about to stop, so that their answers end in order."""
+
+import socket
+
+import uvicorn
+from fastapi import FastAPI
+
+GOODBYE_SECONDS = 3  # for answers that are under way
+
+
+class Server(uvicorn.Server):
+    """uvicorn, but for waits and event streams: they end when the process is told to stop, not when it is killed."""
+
+    def __init__(self, app: FastAPI, host: str = "127.0.0.1", port: int = 0) -> None:
+        super().__init__(
+            uvicorn.Config(
+                app,
+                host,
+                port,
+                timeout_graceful_shutdown=GOODBYE_SECONDS,
+                access_log=False,
+                server_header=False,
+            )
+        )
+        self._app = app
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """Answer what waits, take nothing new, end."""
+        self._app.state.backend.stop_waiting()
+        await super().shutdown(sockets)
