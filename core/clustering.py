@@ -16,6 +16,7 @@ LEAST_SILHOUETTE = 0.25
 """Below this a grouping is "no substantial structure" (Kaufman and Rousseeuw, 1990): then all is one motion."""
 
 SILHOUETTE_SAMPLE = 2000
+MOST_IN_GRAM = 1500
 
 
 @dataclass(frozen=True)
@@ -29,6 +30,7 @@ class Clusters:
 
 def cluster(points: Float[np.ndarray, "keys D"], motions: int, seed: int) -> Clusters:
     """K-means with 20 starts and a fixed seed, on one thread: the same labels for any number of threads."""
+    points = compact(points)
     with threadpool_limits(1):
         fit = KMeans(motions, n_init=STARTS, random_state=seed).fit(points)
         distance = np.sort(fit.transform(points), axis=1)
@@ -36,6 +38,21 @@ def cluster(points: Float[np.ndarray, "keys D"], motions: int, seed: int) -> Clu
     if motions > 1:
         margin = 1 - distance[:, 0] / np.maximum(distance[:, 1], np.finfo(np.float32).tiny)
     return Clusters(fit.labels_.astype(np.int64), margin.astype(np.float64), float(fit.inertia_))
+
+
+def compact(points: Float[np.ndarray, "keys D"]) -> Float[np.ndarray, "keys d"]:
+    """The same points in as few dimensions as they span: distances, which are all that K-means sees, stay.
+
+    By the eigenvectors of the Gram matrix of the centred points, where they are fewer than their dimensions and
+    few enough for it to be quick.
+    """
+    if not 1 < len(points) < min(points.shape[1], MOST_IN_GRAM):
+        return points
+    centred = points - points.mean(axis=0, dtype=np.float64)
+    with threadpool_limits(1):
+        squared, directions = np.linalg.eigh(centred @ centred.T)
+    spanned = squared > squared[-1] * np.finfo(np.float64).eps
+    return np.asarray(directions[:, spanned] * np.sqrt(squared[spanned]))
 
 
 def distinct(points: Float[np.ndarray, "keys D"]) -> int:
@@ -49,6 +66,7 @@ def cluster_unasked(points: Float[np.ndarray, "keys D"], seed: int) -> tuple[Clu
     Two key-frames are two motions: nothing tells whether they are alike.
     """
     most = min(MOST_MOTIONS, distinct(points))
+    points = compact(points)
     found = [cluster(points, k, seed) for k in range(1, most + 1)]
     whole = found[0].inertia or 1.0
     scores = tuple(Score(motions=k + 1, score=round(c.inertia / whole, 6)) for k, c in enumerate(found))

@@ -6,8 +6,8 @@ import numpy as np
 from jaxtyping import Float32, Float64
 
 from core.animation import Animation
-from core.drawing import draw, draw_frames
-from core.errors import ParameterError
+from core.drawing import REACH, draw, draw_frames
+from core.errors import InvalidModel, ParameterError
 
 MEAN_FRAMES = 200
 
@@ -16,11 +16,11 @@ def rest_shape(animation: Animation, rule: Literal["bind", "mean"] | int) -> Flo
     """`bind`: the shape the file names, else frame 0; a frame's number; or `mean`.
 
     The mean is over at most 200 evenly spaced frames, each first moved rigidly onto frame 0: the plain mean of a
-    body that turns would shrink it. Raises `ParameterError` where there is no such frame.
+    body that turns would shrink it. Raises `ParameterError`
+    where there is no such frame, `InvalidModel` where the file's own rest shape is not finite.
     """
     if rule == "bind":
-        given = animation.rest if animation.rest is not None else draw(animation, (0, 1))[0]
-        return np.asarray(given, np.float32)
+        return draw(animation, (0, 1))[0] if animation.rest is None else _finite(animation.rest.astype(np.float32))
     if rule == "mean":
         return _mean(animation)
     if not 0 <= rule < animation.frames:
@@ -28,6 +28,14 @@ def rest_shape(animation: Animation, rule: Literal["bind", "mean"] | int) -> Flo
             "no-such-frame", f"rest = {rule}: the take has frames 0 to {animation.frames - 1}.", parameter="rest"
         )
     return np.asarray(draw(animation, (rule, rule + 1))[0])
+
+
+def _finite(rest: Float32[np.ndarray, "V 3"]) -> Float32[np.ndarray, "V 3"]:
+    outside = np.flatnonzero(~(np.abs(rest) <= REACH).all(axis=1))
+    if len(outside):
+        detail = f"Vertex {outside[0]} of the rest shape is at {rest[outside[0]].tolist()}: no place in space."
+        raise InvalidModel("non-finite-data", detail, vertex=int(outside[0]))
+    return rest
 
 
 def _mean(animation: Animation) -> Float32[np.ndarray, "V 3"]:

@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from core.clustering import cluster, cluster_unasked, distinct
+from core.clustering import cluster, cluster_unasked, compact, distinct
 
 
 def clouds(centres, each=8, spread=0.05):
@@ -58,3 +58,17 @@ def test_a_point_between_two_centres_belongs_to_neither_clearly():
     margin = cluster(np.concatenate([points[:12], points[12:13]]), 2, 0).margin
     assert margin[:12].min() > 0.8
     assert margin[12] < 0.3
+
+
+def test_points_in_fewer_dimensions_are_as_far_apart():
+    """Compacting is an isometry, for points that are all equal too."""
+    points, _ = clouds([0, 1, 2.5])
+    few = compact(points)
+    assert few.shape[1] < points.shape[0] <= points.shape[1]
+    np.testing.assert_allclose(gaps(few), gaps(points), atol=1e-6)
+    assert gaps(compact(np.ones((4, 9)))).max() == 0
+
+
+def gaps(points):
+    """All distances."""
+    return np.linalg.norm(points[:, None] - points[None, :], axis=2)

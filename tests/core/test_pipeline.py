@@ -7,6 +7,7 @@ import pytest
 
 from core.analysis import Analysis
 from core.errors import InvalidModel, ParameterError
+from core.methods import METHODS
 from core.parameters import Parameters
 from core.pipeline import analyse, cut, segment
 from tests import oracles
@@ -120,10 +121,13 @@ def test_a_body_that_tumbles_through_space_has_the_same_curve(performance, analy
     np.testing.assert_allclose(found, analysed.energy, atol=0.02)
 
 
-def test_a_rigid_body_is_one_segment():
-    """Done, and it says so; for either method there is nothing to tell frames apart by."""
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("motions", [1, 3, "auto"])
+def test_a_rigid_body_is_one_segment(method, motions):
+    """Done, and it says so; there is nothing that any method could tell frames apart by."""
     rest, triangles = bar()
-    result = segment(animation(tumbling(rest, 120, far=3.0), triangles, rest=rest), PAPER)
+    parameters = Parameters(method=method, motions=motions)
+    result = segment(animation(tumbling(rest, 120, far=3.0), triangles, rest=rest), parameters)
     assert "no-deformation" in codes(result)
     assert len(result.segments) == 1
     assert np.nanmax(result.energy) == 0
@@ -219,6 +223,15 @@ def test_what_is_no_number_is_refused_by_frame_and_vertex(performance, value, fr
         analyse(with_vertices(performance.animation, vertices), PAPER, threads=2)
     assert refused.value.code == "non-finite-data"
     assert refused.value.where == {"frame": frame, "vertex": 17}
+
+
+def test_a_rest_shape_that_is_no_number_is_refused(performance):
+    """It is not a frame, so the vertex alone is named."""
+    rest = performance.animation.rest.copy()
+    rest[5, 1] = np.nan
+    with pytest.raises(InvalidModel) as refused:
+        analyse(with_vertices(performance.animation, performance.animation.vertices(0, 9), rest=rest), PAPER)
+    assert (refused.value.code, refused.value.where) == ("non-finite-data", {"vertex": 5})
 
 
 def test_the_rest_shape_can_be_chosen(performance):
