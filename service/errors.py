@@ -39,6 +39,7 @@ STATUS: dict[str, int] = {
     "not-finished": 409,
     "cancelled": 409,
     "gone": 410,
+    "animation-deleted": 410,
     "range-not-satisfiable": 416,
     "too-many-requests": 429,
     "queue-unavailable": 503,

@@ -26,7 +26,7 @@ def keep(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tu
     described = [(part.name, part.bytes, part.sha256) for part in parts]
     identifier = ids.animation_id(backend.secret, owner, described)
     kept = backend.jobs.records.animation(identifier)
-    if kept is not None:
+    if kept is not None and kept.parts:
         return kept, False
     record = AnimationRecord(
         id=identifier,

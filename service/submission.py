@@ -5,6 +5,7 @@ import time
 from core.formats.takes import choose_take
 from core.parameters import ALGORITHM, Parameters
 from service.backend import Backend
+from service.errors import Refusal
 from worker import ids
 from worker.schema import AnimationRecord, SegmentationRecord
 
@@ -24,12 +25,20 @@ def resolved(parameters: Parameters, animation: AnimationRecord) -> Parameters:
 
 
 def submit(backend: Backend, animation: AnimationRecord, parameters: Parameters, name: str) -> SegmentationRecord:
-    """The segmentation, queued now or before. Blocks: run it on a thread."""
+    """The segmentation, queued now or before. Blocks: run it on a thread.
+
+    Raises `Refusal` ("gone") where it would have to be computed and the upload's files are no longer kept.
+    """
     chosen = resolved(parameters, animation)
+    identifier = ids.segmentation_id(backend.secret, animation.id, chosen.canonical(), ALGORITHM)
+    if not animation.parts:
+        kept = backend.jobs.records.segmentation(identifier)
+        if kept is None or not kept.settled:
+            raise Refusal("gone", "The files of this animation are no longer kept. Upload it again to cut it anew.")
     now = time.time()
     return backend.jobs.submit(
         SegmentationRecord(
-            id=ids.segmentation_id(backend.secret, animation.id, chosen.canonical(), ALGORITHM),
+            id=identifier,
             animation=animation.id,
             owner=animation.owner,
             name=name or animation.name,

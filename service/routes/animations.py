@@ -63,6 +63,8 @@ async def file(
 ) -> Response:
     """The uploaded bytes, whole or by Range."""
     record = await backend.animation(identifier, owner)
+    if not record.parts:
+        raise Refusal("gone", "The files of this animation are no longer kept. Upload it again.")
     if part >= len(record.parts):
         raise Refusal("not-found", f"The upload has {len(record.parts)} files, numbered from 0; there is no {part}.")
     chosen = record.parts[part]

@@ -2,6 +2,8 @@
 
 import pytest
 
+from worker.records import Records, connect
+
 
 @pytest.fixture(scope="module")
 def content(take):
@@ -90,3 +92,16 @@ def test_deleting_an_animation_deletes_all_that_was_made_of_it(service, take):
 
 def _blobs(service):
     return sum(path.is_file() for path in (service.data / "blobs").rglob("*"))
+
+
+def test_an_upload_that_is_no_longer_kept_is_gone_until_it_comes_again(idle, take):
+    """Its file and new cuts answer 410; its record stays, and the same bytes bring it back."""
+    content = take(206)
+    identifier = idle.http.post("/v1/animations", content=content).json()["id"]
+    records = Records(connect(idle.redis_url))
+    records.strip_animation(records.animation(identifier))
+    assert idle.http.get(f"/v1/animations/{identifier}").status_code == 200
+    assert idle.http.get(f"/v1/animations/{identifier}/file").json()["code"] == "gone"
+    assert idle.http.post("/v1/segmentations", json={"animation": identifier}).status_code == 410
+    assert idle.http.post("/v1/animations", content=content).json()["id"] == identifier
+    assert idle.http.get(f"/v1/animations/{identifier}/file").content == content
