@@ -41,6 +41,7 @@ def analyse(
     if animation.frames < 2:
         raise InvalidModel("no-motion", "The take has a single frame: nothing moves. Choose a take with a motion.")
     with threadpool_limits(1):
+        progress("rest shape", 0.0)
         rest = rest_shape(animation, parameters.rest)
         body, notices = Body.of(rest, animation.triangles, parameters)
         take = survey(animation, body, threads=threads, progress=progress, memory_bytes=memory_bytes)

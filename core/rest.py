@@ -16,8 +16,8 @@ def rest_shape(animation: Animation, rule: Literal["bind", "mean"] | int) -> Flo
     """`bind`: the shape the file names, else frame 0; a frame's number; or `mean`.
 
     The mean is over at most 200 evenly spaced frames, each first moved rigidly onto frame 0: the plain mean of a
-    body that turns would shrink it. Raises `ParameterError`
-    where there is no such frame, `InvalidModel` where the file's own rest shape is not finite.
+    body that turns would shrink it. Raises
+    `ParameterError` where there is no such frame, `InvalidModel` where the file's own rest shape is not finite.
     """
     if rule == "bind":
         return draw(animation, (0, 1))[0] if animation.rest is None else _finite(animation.rest.astype(np.float32))

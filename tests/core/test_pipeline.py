@@ -284,11 +284,11 @@ def test_progress_tells_every_stage(performance):
     """In order, each from 0; and what it raises ends the analysis."""
     heard = []
     segment(performance.animation, PAPER, threads=2, progress=lambda *told: heard.append(told))
-    assert list(dict.fromkeys(stage for stage, _ in heard)) == ["strain", "energy", "key-frames", "cut"]
+    assert list(dict.fromkeys(stage for stage, _ in heard)) == ["rest shape", "strain", "energy", "key-frames", "cut"]
     assert all(0 <= fraction <= 1 for _, fraction in heard)
 
     def cancel(stage, fraction):
         raise TimeoutError(stage)
 
-    with pytest.raises(TimeoutError, match="strain"):
+    with pytest.raises(TimeoutError, match="rest shape"):
         analyse(performance.animation, PAPER, threads=2, progress=cancel)
