@@ -17,13 +17,13 @@ from core.formats.gltf.skins import IDENTITY, Skin, read_skin
 
 
 @dataclass(frozen=True)
-class Morph:
-    """Vertices [start, stop) are displaced by `targets` (targets, 3 · vertices), weighted as `node` says."""
+class Part:
+    """Vertices [start, stop). With `targets` (targets, 3 · vertices) they are displaced, weighted as `node` says."""
 
     start: int
     stop: int
-    node: int
-    targets: Float[np.ndarray, "targets coordinates"]
+    node: int = -1
+    targets: Float[np.ndarray, "targets coordinates"] | None = None
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,8 @@ class Figure:
 
     Vertex v is moved by the bones `bones[first[v]:first[v + 1]]` with `weights` of sum 1. A bone is a node and the
     matrix (3 x 4) that takes the vertex into its frame: a joint of a skin and its inverse bind matrix, or the
-    node of a rigid mesh and the identity. `skins` are the ranges [start, stop) of bones that are skins.
+    node of a rigid mesh and the identity. `skins` are the ranges [start, stop) of bones that are skins; `parts` are
+    all vertices in order, those with morph targets apart from those without.
     """
 
     positions: Float[np.ndarray, "V 3"]
@@ -43,7 +44,7 @@ class Figure:
     bone_node: Int[np.ndarray, "B"]
     bone_bind: Float[np.ndarray, "B 12"]
     skins: tuple[tuple[int, int], ...]
-    morphs: tuple[Morph, ...]
+    parts: tuple[Part, ...]
 
 
 def read_figure(document: Document, accessors: Accessors, graph: NodeGraph, nodes: list[int]) -> Figure | None:
@@ -77,7 +78,7 @@ def joints_figure(nodes: Int[np.ndarray, "V"]) -> Figure:
         bone_node=nodes,
         bone_bind=np.tile(IDENTITY, (count, 1)),
         skins=(),
-        morphs=(),
+        parts=(Part(0, count),),
     )
 
 
@@ -125,7 +126,7 @@ class _Body:
         self._counts: list[Int[np.ndarray, "_"]] = []
         self._joints: list[Int[np.ndarray, "_"]] = []
         self._weights: list[Float[np.ndarray, "_"]] = []
-        self._morphs: list[Morph] = []
+        self._parts: list[Part] = []
         self._vertices = 0
 
     def add(self, node: int, entry: Entry, outline: Outline) -> None:
@@ -137,9 +138,7 @@ class _Body:
         start, self._vertices = self._vertices, self._vertices + len(primitive.positions)
         self._positions.append(primitive.positions)
         self._triangles.append(primitive.triangles + start)
-        if len(primitive.targets):
-            flat = primitive.targets.reshape(len(primitive.targets), -1)
-            self._morphs.append(Morph(start, self._vertices, node, flat))
+        self._add_part(start, node, primitive.targets)
         influences = primitive.influences
         if "skin" in entry and influences is not None:
             self._add_skinned(entry, outline.entry, influences)
@@ -159,8 +158,16 @@ class _Body:
             bone_node=np.concatenate(self._bone_nodes),
             bone_bind=np.concatenate(self._binds),
             skins=tuple((start, start + len(skin.joints)) for start, skin in self._skins.values()),
-            morphs=tuple(self._morphs),
+            parts=tuple(self._parts),
         )
+
+    def _add_part(self, start: int, node: int, targets: Float[np.ndarray, "targets V 3"]) -> None:
+        if len(targets):
+            self._parts.append(Part(start, self._vertices, node, targets.reshape(len(targets), -1)))
+        elif self._parts and self._parts[-1].targets is None:
+            self._parts[-1] = Part(self._parts[-1].start, self._vertices)
+        else:
+            self._parts.append(Part(start, self._vertices))
 
     def _add_rigid(self, node: int, vertices: int) -> None:
         self._counts.append(np.ones(vertices, np.int64))

@@ -20,6 +20,12 @@ FLOAT32_MAX = 3.4028234663852886e38
 
 compiled = njit(nogil=True, cache=True, fastmath={"contract", "reassoc", "nsz", "arcp", "afn"}, error_model="numpy")
 
+exact = njit(nogil=True, cache=True, fastmath={"contract", "nsz", "arcp", "afn"}, error_model="numpy")
+"""Without leave to reorder sums: a frame has the same bits whichever frames it is drawn with."""
+
+TILE = 32
+"""Vertices whose sums are held at a time."""
+
 
 @compiled
 def sample(
@@ -177,53 +183,92 @@ def _matrix(pose: Doubles, at: int, out: Doubles) -> None:
 
 @compiled
 def palette(world: Doubles, joints: Indices, bind: Doubles, out: Doubles) -> None:
-    """world[joint] · bind of every joint, column by column padded to 4 x 4: out (frames, J, 16)."""
+    """world[joint] · bind of every joint, the frames innermost: out (J, 12, frames)."""
     product = np.empty(12)
-    for f in range(len(world)):
-        for j in range(len(joints)):
+    for j in range(len(joints)):
+        for f in range(len(world)):
             _product(world[f, joints[j]], bind[j], product)
-            for r in range(3):
-                for c in range(4):
-                    out[f, j, 4 * c + r] = product[4 * r + c]
-            for c in range(4):
-                out[f, j, 4 * c + 3] = 0.0
+            for i in range(12):
+                out[j, i, f] = product[i]
 
 
-@compiled
-def morph(base: Singles, targets: Singles, weights: Doubles, out: Doubles) -> None:
-    """base + Σ weight · target, of one frame: (V 3) flat float32, summed in float64."""
-    for v in range(len(base)):
-        out[v] = base[v]
-    for t in range(len(targets)):
-        weight = weights[t]
-        if weight != 0:
-            for v in range(len(base)):
-                out[v] += weight * targets[t, v]
-
-
-@compiled
+@exact
 def skin(
-    positions: Singles | Doubles, first: Indices, joints: Indices, weights: Doubles, matrices: Doubles, out: Singles
-) -> int:
-    """Σ weight · matrix[joint] · position, for every frame of `matrices`; how many frames are finite.
+    positions: Singles, first: Indices, joints: Indices, weights: Doubles, matrices: Doubles, start: int, out: Singles
+) -> bool:
+    """Σ weight · matrix[joint] · position of vertices start …, in every frame of out (frames, V, 3); whether finite.
 
-    Vertex v has influences first[v] … first[v + 1] - 1.
+    Vertex v of `positions` is moved by the joints first[v] … first[v + 1] - 1. Vertices go in tiles whose sums, with
+    the frames innermost, stay in the fastest memory and become vector instructions.
     """
-    blend = np.empty(16)
-    for f in range(len(matrices)):
-        good = True
-        for v in range(len(out[f])):
-            for i in range(16):
-                blend[i] = 0.0
-            for k in range(first[v], first[v + 1]):
-                j, w = joints[k], weights[k]
-                for i in range(16):
-                    blend[i] += w * matrices[f, j, i]
-            x, y, z = float(positions[v, 0]), float(positions[v, 1]), float(positions[v, 2])
+    frames, finite = len(out), True
+    sums = np.empty((3 * TILE, frames))
+    for tile in range(0, len(positions), TILE):
+        count = min(TILE, len(positions) - tile)
+        sums[:] = 0.0
+        for v in range(count):
+            x, y, z = float(positions[tile + v, 0]), float(positions[tile + v, 1]), float(positions[tile + v, 2])
+            for k in range(first[tile + v], first[tile + v + 1]):
+                w, m = weights[k], matrices[joints[k]]
+                for r in range(3):
+                    for f in range(frames):
+                        place = m[4 * r, f] * x + m[4 * r + 1, f] * y + m[4 * r + 2, f] * z + m[4 * r + 3, f]
+                        sums[3 * v + r, f] += w * place
+        finite = _store(sums, count, start + tile, out) and finite
+    return finite
+
+
+@exact
+def skin_morphed(
+    positions: Singles,
+    targets: Singles,
+    shares: Doubles,
+    first: Indices,
+    joints: Indices,
+    weights: Doubles,
+    matrices: Doubles,
+    start: int,
+    out: Singles,
+) -> bool:
+    """As `skin`, of positions + Σ share · target: targets (targets, V 3), shares (targets, frames)."""
+    frames, finite = len(out), True
+    sums, places = np.empty((3 * TILE, frames)), np.empty((3, frames))
+    for tile in range(0, len(positions), TILE):
+        count = min(TILE, len(positions) - tile)
+        sums[:] = 0.0
+        for v in range(count):
+            _displaced(positions[tile + v], targets, shares, 3 * (tile + v), places)
+            for k in range(first[tile + v], first[tile + v + 1]):
+                w, m = weights[k], matrices[joints[k]]
+                for r in range(3):
+                    for f in range(frames):
+                        x, y, z = places[0, f], places[1, f], places[2, f]
+                        place = m[4 * r, f] * x + m[4 * r + 1, f] * y + m[4 * r + 2, f] * z + m[4 * r + 3, f]
+                        sums[3 * v + r, f] += w * place
+        finite = _store(sums, count, start + tile, out) and finite
+    return finite
+
+
+@exact
+def _displaced(position: Singles, targets: Singles, shares: Doubles, at: int, out: Doubles) -> None:
+    """Where one vertex is in every frame, (3, frames), before the skin moves it."""
+    for r in range(3):
+        out[r, :] = position[r]
+        for t in range(len(targets)):
+            shift = float(targets[t, at + r])
+            if shift != 0:
+                for f in range(shares.shape[1]):
+                    out[r, f] += shares[t, f] * shift
+
+
+@exact
+def _store(sums: Doubles, count: int, start: int, out: Singles) -> bool:
+    """Write a tile of sums, the frames innermost, into frames; whether float32 can hold them."""
+    finite = True
+    for f in range(len(out)):
+        for v in range(count):
             for r in range(3):
-                p = blend[r] * x + blend[4 + r] * y + blend[8 + r] * z + blend[12 + r]
-                good = good and abs(p) <= FLOAT32_MAX
-                out[f, v, r] = p
-        if not good:
-            return f
-    return len(matrices)
+                place = sums[3 * v + r, f]
+                finite = finite and abs(place) <= FLOAT32_MAX
+                out[f, start + v, r] = place
+    return finite

@@ -7,9 +7,12 @@ from jaxtyping import Float, Int
 
 from core.errors import InvalidModel
 from core.formats.gltf.figure import Figure
-from core.formats.gltf.kernels import morph, palette, skin, worlds
+from core.formats.gltf.kernels import palette, skin, skin_morphed, worlds
 from core.formats.gltf.nodes import NodeGraph
 from core.formats.gltf.sampling import Slots, Tracks
+
+MOST_FRAMES = 32
+"""Frames that are drawn at a time: enough for vector instructions, few enough that all matrices stay near."""
 
 SCRATCH_BYTES = 16 * 2**20
 """Matrices and poses that one call holds at a time: however many frames are asked for, and however many nodes."""
@@ -25,11 +28,11 @@ class Skeleton:
     bone_node: Int[np.ndarray, "B"]
     bone_bind: Float[np.ndarray, "B 12"]
 
-    def palette(self, poses: Float[np.ndarray, "block numbers"]) -> Float[np.ndarray, "block B 16"]:
-        """What each bone does to a vertex bound to it: world · bind, column by column, padded to 4 x 4."""
+    def palette(self, poses: Float[np.ndarray, "block numbers"]) -> Float[np.ndarray, "B 12 block"]:
+        """What each bone does to a vertex bound to it: world · bind, row by row 3 x 4, the frames innermost."""
         world = np.empty((len(poses), len(self.parent), 12))
         worlds(poses, self.parent, self.matrix, self.has_matrix, world)
-        matrices = np.empty((len(poses), len(self.bone_node), 16))
+        matrices = np.empty((len(self.bone_node), 12, len(poses)))
         palette(world, self.bone_node, self.bone_bind, matrices)
         return matrices
 
@@ -64,57 +67,46 @@ class PosedVertices:
     frame_rate: float
 
     def __call__(self, start: int, stop: int) -> Float[np.ndarray, "block V 3"]:
-        """Positions of frames [start, stop)."""
+        """Positions of frames [start, stop); raises `non-finite-data` naming frame and vertex."""
         out = np.empty((stop - start, len(self.figure.positions), 3), np.float32)
         for first in range(start, stop, self._frames_at_once):
             last = min(first + self._frames_at_once, stop)
             poses = self.tracks.poses(np.arange(first, last) / self.frame_rate)
-            self._draw(first, poses, self.skeleton.palette(poses), out[first - start : last - start])
+            block = out[first - start : last - start]
+            if not self._draw(poses, self.skeleton.palette(poses), block):
+                frame, vertex = np.argwhere(~np.isfinite(block).all(axis=2))[0].tolist()
+                raise InvalidModel(
+                    "non-finite-data",
+                    "The pose puts a vertex where float32 cannot; look at scales and translations there.",
+                    frame=first + frame,
+                    vertex=vertex,
+                )
         return out
 
     @property
     def _frames_at_once(self) -> int:
-        numbers = len(self.tracks.still) + 12 * len(self.skeleton.parent) + 16 * len(self.skeleton.bone_node)
-        return max(1, SCRATCH_BYTES // (8 * numbers))
+        numbers = len(self.tracks.still) + 12 * len(self.skeleton.parent) + 12 * len(self.skeleton.bone_node)
+        return min(max(SCRATCH_BYTES // (8 * numbers), 1), MOST_FRAMES)
 
     def _draw(
         self,
-        first: int,
         poses: Float[np.ndarray, "block numbers"],
-        matrices: Float[np.ndarray, "block B 16"],
+        matrices: Float[np.ndarray, "B 12 block"],
         out: Float[np.ndarray, "block V 3"],
-    ) -> None:
-        if not self.figure.morphs:
-            self._skin(first, self.figure.positions, matrices, out)
-            return
-        positions = self.figure.positions.astype(np.float64)
-        for frame in range(len(poses)):
-            self._morph(poses[frame], positions)
-            self._skin(first + frame, positions, matrices[frame : frame + 1], out[frame : frame + 1])
-
-    def _morph(self, pose: Float[np.ndarray, "numbers"], positions: Float[np.ndarray, "V 3"]) -> None:
-        for part in self.figure.morphs:
-            weights = pose[self.weight_slots[part.node] :][: len(part.targets)]
-            base = self.figure.positions[part.start : part.stop].reshape(-1)
-            morph(base, part.targets, weights, positions[part.start : part.stop].reshape(-1))
-
-    def _skin(
-        self,
-        first: int,
-        positions: Float[np.ndarray, "V 3"],
-        matrices: Float[np.ndarray, "block B 16"],
-        out: Float[np.ndarray, "block V 3"],
-    ) -> None:
-        figure = self.figure
-        good = skin(positions, figure.first, figure.bones, figure.weights, matrices, out)
-        if good < len(out):
-            wrong = ~np.isfinite(out[good]).all(axis=1)
-            raise InvalidModel(
-                "non-finite-data",
-                "The pose puts a vertex where float32 cannot; look at scales and translations there.",
-                frame=first + good,
-                vertex=int(np.argmax(wrong)),
-            )
+    ) -> bool:
+        finite = True
+        for part in self.figure.parts:
+            positions, first = self.figure.positions[part.start : part.stop], self.figure.first[part.start :]
+            rest = (first, self.figure.bones, self.figure.weights, matrices, part.start, out)
+            if part.targets is None:
+                finite &= skin(positions, *rest)
+            else:
+                slot = self.weight_slots[part.node]
+                shares = poses[:, slot : slot + len(part.targets)].T
+                used = shares.any(axis=1)
+                targets = part.targets if used.all() else part.targets[used]
+                finite &= skin_morphed(positions, targets, np.ascontiguousarray(shares[used]), *rest)
+        return finite
 
 
 def rest_pose(
@@ -128,9 +120,9 @@ def rest_pose(
     """
     matrices = skeleton.palette(still[None])
     for start, stop in figure.skins:
-        linear = matrices[0, start:stop].reshape(-1, 4, 4)[:, :3, :3]
+        linear = matrices[start:stop, :, 0].reshape(-1, 3, 4)[:, :, :3]
         size = np.argsort(np.abs(np.linalg.det(linear)), kind="stable")
-        matrices[0, start:stop] = matrices[0, start + size[len(size) // 2]]
+        matrices[start:stop] = matrices[start + size[len(size) // 2]]
     out = np.empty((1, len(figure.positions), 3), np.float32)
-    good = skin(figure.positions, figure.first, figure.bones, figure.weights, matrices, out)
-    return out[0] if good else None
+    finite = skin(figure.positions, figure.first, figure.bones, figure.weights, matrices, 0, out)
+    return out[0] if finite else None

@@ -19,6 +19,9 @@ from core.formats.gltf.take import choose_animation
 from core.limits import Limits
 from core.parameters import Parameters
 
+KEYS_ASKED = 10_000
+"""Keys that are asked for the rate of a take: a long one has no more to tell."""
+
 
 def read_gltf(data: memoryview, parts: Mapping[str, memoryview], parameters: Parameters, limits: Limits) -> Animation:
     """The animation of a glTF or GLB; `parts` are files sent beside it, found by their exact names."""
@@ -67,7 +70,7 @@ def _with_weights(
     slots: Slots = {}
     rows = [still]
     length = len(still)
-    for node in {morph.node: None for morph in figure.morphs}:
+    for node in {part.node: None for part in figure.parts if part.targets is not None}:
         weights = still_weights(document, graph.entries[node])
         slots[node], length = length, length + len(weights)
         rows.append(np.array(weights))
@@ -77,7 +80,7 @@ def _with_weights(
 def _rate(document: Document, parameters: Parameters, tracks: Tracks) -> float:
     if parameters.fps != "source":
         return float(parameters.fps)
-    rate = key_rate(tracks.densest.tolist())
+    rate = key_rate(tracks.densest[:KEYS_ASKED].tolist())
     if rate is None:
         document.notices.add("frame-rate-assumed", f"The keys tell no frame rate; {ASSUMED:g} a second was taken.")
     return rate or ASSUMED
