@@ -69,16 +69,17 @@ def normaliser(
     coding: Coding,
     histogram: Int[np.ndarray, "codes"],
     largest: Float[np.ndarray, "frames"],
-    strains: bool,
+    share_above_noise: float,
 ) -> float:
     """The strain that counts as 1: the 99.9th percentile, the largest, a given number, or 1 (`none`).
 
-    Also 1 where nothing strains: noise is not stretched to full scale.
+    Noise is not stretched to full scale: where strain is so rare that the percentile would be noise, the largest
+    counts in its place, and where there is none above noise, 1.
     """
-    if not strains and not isinstance(rule, float):
+    if share_above_noise == 0 and not isinstance(rule, float):
         return 1.0
-    if rule == "p99.9":
+    if rule == "p99.9" and share_above_noise > 1 - PERCENTILE / 100:
         return coding.percentile(histogram)
-    if rule == "max":
+    if rule in {"p99.9", "max"}:
         return float(largest.max())
     return 1.0 if rule == "none" else float(rule)

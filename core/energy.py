@@ -24,6 +24,8 @@ def energy_curve(
     elsewhere. O(frames · columns) whatever l is.
     """
     energy = np.full(frames, np.nan)
+    if frames < 2 * length:
+        return energy
     counted = map_blocks(Pairing.counts, pairings(bins, length, levels), threads)
     m = length - 1
     for sums in sliding_sums(counted, length):

@@ -48,7 +48,8 @@ def analyse(
         if not take.strains and take.bends and len(animation.triangles):
             body = body.by_pairs()
             take = survey(animation, body, threads=threads, progress=progress, memory_bytes=memory_bytes)
-        scale = normaliser(parameters.normalize, take.surveyor.coding, take.histogram, take.largest, take.strains)
+        share = take.share_above_noise if take.strains else 0.0
+        scale = normaliser(parameters.normalize, take.surveyor.coding, take.histogram, take.largest, share)
         length = window_frames(parameters.energy, parameters.window_seconds, animation.frame_rate)
         bins = take.bins(scale, parameters.bins, threads, progress)
         energy = energy_curve(bins, animation.frames, length, parameters.bins, threads)

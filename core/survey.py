@@ -17,8 +17,8 @@ from core.drawing import draw
 from core.glance import Glance
 from core.progress import Progress, ignore
 
-STILL_SHARE = 0.001
-"""Strain is noise where no more than this share of it rises above rounding: what the 99.9th percentile leaves out."""
+STILL_SHARE = 1e-6
+"""A body does not strain where no more than this share of its strains, over all frames, rises above rounding."""
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,12 @@ class Survey:
     @property
     def strains(self) -> bool:
         """Whether strain is more than rounding."""
-        return self.above_noise > STILL_SHARE * int(self.histogram.sum())
+        return self.share_above_noise > STILL_SHARE
+
+    @property
+    def share_above_noise(self) -> float:
+        """The share of all strains that are more than rounding."""
+        return self.above_noise / max(int(self.histogram.sum()), 1)
 
     @property
     def bends(self) -> bool:

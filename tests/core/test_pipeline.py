@@ -146,6 +146,17 @@ def test_rigid_parts_are_told_apart_by_their_distances():
     assert [f.values.shape[1] > 0 for f in found.features] == [False, True]
 
 
+def test_a_small_gesture_of_a_still_body_is_seen():
+    """One corner of the mesh moves for a moment: less than a thousandth of all strains, and not taken for noise."""
+    rest, triangles = bar(rings=100)
+    vertices = np.repeat(rest[None], 300, axis=0)
+    vertices[150:165, -1, 0] += 0.02 * np.sin(np.arange(15)).astype(np.float32)
+    found = analyse(animation(vertices, triangles, rest=rest), PAPER)
+    assert codes(found) == []
+    assert found.strain_scale > 0.1
+    assert found.features[0].values.shape[1] > 0
+
+
 def test_a_skeleton_without_a_mesh_has_a_curve():
     """By the distances of its joints, and it says so."""
     source = performing_bar([0, 1], rings=12).animation
