@@ -73,7 +73,7 @@ class Installation:
     def submit(self, animation, **given):
         return self.jobs.submit(self.wanted(animation, **given))
 
-    def until(self, identifier, reached, seconds=30.0):
+    def until(self, identifier, reached, seconds=60.0):
         """The record once `reached(record)` holds."""
         deadline = time.monotonic() + seconds
         while True:
@@ -83,11 +83,11 @@ class Installation:
             assert time.monotonic() < deadline, record
             time.sleep(0.005)
 
-    def ended(self, identifier, seconds=30.0):
+    def ended(self, identifier, seconds=60.0):
         """The record once it is neither queued nor running."""
         return self.until(identifier, lambda record: not record.live, seconds)
 
-    def begun(self, identifier, seconds=30.0):
+    def begun(self, identifier, seconds=60.0):
         """The record once it runs and has told a stage."""
         return self.until(identifier, lambda record: record.status == "running" and record.stage, seconds)
 
@@ -101,6 +101,7 @@ class Pool:
         self.process = subprocess.Popen(command, env=environment, start_new_session=True)
 
     def stop(self):
+        """SIGTERM; the exit status."""
         self.process.send_signal(signal.SIGTERM)
         return self.process.wait(30)
 

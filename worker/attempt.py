@@ -103,6 +103,6 @@ def carry_out(jobs: Jobs, identifier: str, token: str, work: Callable[[Attempt],
     except INFRASTRUCTURE:
         attempt.again(UNAVAILABLE)
         raise
-    except Exception:
+    except BaseException:  # a panic of the store's library is no Exception
         attempt.fail(INTERNAL_ERROR)
         raise

@@ -1,0 +1,95 @@
+"""However the work ends, the record says so, and only what another attempt may mend is tried again."""
+
+import pytest
+from obstore.exceptions import GenericError
+from redis.exceptions import ConnectionError as RedisAway
+
+from core.errors import InvalidModel, from_problem
+from worker.attempt import carry_out
+from worker.jobs import TimeLimit
+
+
+@pytest.fixture
+def queued(idle, take):
+    """A segmentation that waits."""
+    return idle.submit(idle.upload(take))
+
+
+def ending_with(idle, queued, error):
+    """The record after an attempt whose work raises `error`."""
+
+    def work(attempt):
+        attempt.progress("strain", 0.5)
+        raise error
+
+    carry_out(idle.jobs, queued.id, queued.token, work)
+    return idle.records.segmentation(queued.id)
+
+
+def test_a_refusal_is_the_answer(idle, queued):
+    """What a person can mend ends the job without fuss, and comes back as the same error."""
+    error = InvalidModel("no-motion", "Nothing moves.", frame=0)
+    failed = ending_with(idle, queued, error)
+    assert failed.status == "failed"
+    assert failed.settled
+    assert str(from_problem(failed.problem)) == str(error)
+
+
+@pytest.mark.parametrize(("error", "code"), [(MemoryError(), "out-of-memory"), (TimeLimit(), "out-of-time")])
+def test_too_much_is_not_tried_again(idle, queued, error, code):
+    """The next attempt would take as much; but posted again under higher limits, it starts anew."""
+    failed = ending_with(idle, queued, error)
+    assert (failed.status, failed.attempt, failed.problem["code"]) == ("failed", 1, code)
+    assert failed.problem["setting"] in failed.problem["detail"]
+    assert not failed.settled
+
+
+@pytest.mark.parametrize("error", [OSError(28, "No space left on device"), RedisAway(), GenericError("unreachable")])
+def test_what_is_out_of_reach_is_tried_again(idle, queued, error):
+    """The store or the queue: another attempt may find it."""
+    with pytest.raises(type(error)):
+        ending_with(idle, queued, error)
+    again = idle.records.segmentation(queued.id)
+    assert (again.status, again.attempt) == ("queued", 2)
+
+
+def test_a_bug_is_told_without_its_details(idle, queued):
+    """One sentence for the client; the exception goes on to the log."""
+    with pytest.raises(ZeroDivisionError):
+        ending_with(idle, queued, ZeroDivisionError("secret path"))
+    failed = idle.records.segmentation(queued.id)
+    assert (failed.status, failed.problem["code"]) == ("failed", "internal-error")
+    assert "secret" not in failed.model_dump_json()
+
+
+def test_a_cancelled_attempt_stops_at_its_next_word(idle, queued):
+    """Progress that nobody wants raises, and the job ends in peace."""
+    stopped = []
+
+    def work(attempt):
+        attempt.progress("strain", 0.1)
+        idle.jobs.cancel(queued.id)
+        try:
+            attempt.progress("energy", 0.1)
+        finally:
+            stopped.append(True)
+        raise AssertionError("not reached")
+
+    carry_out(idle.jobs, queued.id, queued.token, work)
+    assert stopped
+    assert idle.records.segmentation(queued.id).status == "cancelled"
+
+
+def test_progress_never_goes_back_within_a_stage(idle, queued):
+    """A second pass over the frames stays where the first one ended."""
+
+    def work(attempt):
+        attempt.progress("figure", 0.9)
+        attempt._told = 0.0
+        attempt.progress("figure", 0.1)
+        assert attempt.records.segmentation(queued.id).fraction == 0.9
+        attempt.progress("cut", 0.1)
+        assert attempt.records.segmentation(queued.id).fraction == 0.1
+
+    carry_out(idle.jobs, queued.id, queued.token, work)
+    assert idle.records.segmentation(queued.id).status == "running"
