@@ -44,15 +44,16 @@ class Labelling:
 
 def agreement(found: Labelling, truth: Labelling) -> dict[str, float]:
     """Frame accuracy under the best matching of labels, adjusted Rand index, boundary F1 at each tolerance."""
-    import numpy as np
-    from core.agreement import adjusted_rand_index, boundary_scores, frame_accuracy
-
     if (found.frames, found.frame_rate) != (truth.frames, truth.frame_rate):
         raise InvalidModel(
             "different-frames",
             f"The result has {found.frames} frames at {found.frame_rate:g} a second, the truth {truth.frames} at "
             f"{truth.frame_rate:g}. Compare results of the same take and frame rate.",
         )
+
+    import numpy as np
+
+    from core.agreement import adjusted_rand_index, boundary_scores, frame_accuracy
 
     def labels(of: Labelling) -> Any:
         names = {name: i for i, name in enumerate(dict.fromkeys(name for _, _, name in of.segments))}

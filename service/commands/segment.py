@@ -50,12 +50,15 @@ def segment(
 
 
 def _found(paths: Sequence[Path], parameters: Parameters, threads: int | None) -> SegmentationDocument:
-    """Read, analyse and cut one animation; everything heavy is imported here."""
+    """Read, analyse and cut one animation. What is heavy is imported here, and what computes only for a good file."""
     from core.formats.read import read_animation
-    from core.pipeline import segment as motions_of
-    from worker.cpu import available_threads
 
-    parts = {path.name: mapped(path) for path in paths}
     with ProgressBar() as progress:
+        progress("reading", 0.0)
+        parts = {path.name: mapped(path) for path in paths}
         animation = read_animation(parts, parameters, Limits.none(), scratch)
+
+        from core.pipeline import segment as motions_of
+        from worker.cpu import available_threads
+
         return motions_of(animation, parameters, threads=threads or available_threads(), progress=progress).document()

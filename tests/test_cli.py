@@ -1,0 +1,215 @@
+"""The command `caesura`, as it is installed: what it prints, where, and how it ends."""
+
+import json
+import socket
+import subprocess
+import sys
+from collections.abc import Iterator
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from service.commands.local_service import local_service
+
+FRAMES = 300
+CUT = 150
+
+
+def caesura(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    """Run the installed command."""
+    program = Path(sys.executable).parent / "caesura"
+    return subprocess.run([program, *arguments], check=False, capture_output=True, text=True, timeout=120)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A take of two motions with its truth, and files that cannot be read."""
+    folder = tmp_path_factory.mktemp("takes")
+    x, y = np.meshgrid(np.linspace(0, 2, 21), np.linspace(0, 1, 11), indexing="ij")
+    rest = np.stack([x, y, 0 * x], -1).reshape(-1, 3)
+    corner = (np.arange(20)[:, None] * 11 + np.arange(10)).ravel()[:, None]
+    triangles = np.concatenate([corner + np.array(offsets) for offsets in ([0, 11, 1], [1, 11, 12])])
+    vertices = np.repeat(rest[None], FRAMES, 0)
+    swing = np.sin(np.arange(FRAMES) * 2 * np.pi / 30)[:, None]
+    vertices[:CUT, :, 0] += 0.2 * swing[:CUT] * rest[:, 0] ** 2  # the far end is pulled out and pushed in
+    vertices[CUT:, :, 1] += 0.3 * swing[CUT:] * rest[:, 1] * (2 - rest[:, 0])  # the near end widens and narrows
+    np.savez(folder / "take.npz", vertices=vertices.astype(np.float32), triangles=triangles, frame_rate=30.0)
+    truth = {
+        "fps": 30,
+        "frames": FRAMES,
+        "segments": [{"label": "pull", "start": 0, "end": CUT}, {"label": "widen", "start": CUT, "end": FRAMES}],
+    }
+    (folder / "take.truth.json").write_text(json.dumps(truth))
+    (folder / "page.glb").write_text("<!DOCTYPE html><title>not found</title>")
+    (folder / "empty.glb").write_bytes(b"")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def document(folder: Path) -> dict[str, Any]:
+    """What `caesura segment --json` prints for the take."""
+    run = caesura("segment", folder / "take.npz", "--motions", "2", "--json")
+    assert run.returncode == 0, run.stderr
+    found: dict[str, Any] = json.loads(run.stdout)
+    return found
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """The URL of a service with a data folder of its own."""
+    with pytest.MonkeyPatch.context() as environment:
+        environment.setenv("CAESURA_DATA_DIR", str(tmp_path_factory.mktemp("data")))
+        environment.delenv("REDIS_URL", raising=False)
+        with local_service(0) as url:
+            yield url
+
+
+def closed_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port: int = probe.getsockname()[1]
+        return port
+
+
+def test_help_answers_at_once() -> None:
+    """Asking for help loads nothing that computes."""
+    script = (
+        "import sys, service.cli; print({'numpy', 'numba', 'sklearn', 'scipy', 'fastapi', 'rq'} & set(sys.modules))"
+    )
+    run = subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True)
+    assert run.stdout == "set()\n"
+
+
+def test_segments_tile_the_take(document: dict[str, Any]) -> None:
+    """The first segment starts at 0, each starts where the one before ends, and the last ends with the take."""
+    segments = document["segments"]
+    assert document["frames"] == FRAMES
+    assert segments[0]["start"] == 0
+    assert all(a["end"] == b["start"] for a, b in pairwise(segments))
+    assert segments[-1]["end"] == FRAMES
+    assert len(document["energy"]) == FRAMES
+
+
+def test_options_reach_the_method(document: dict[str, Any]) -> None:
+    """A parameter given as an option is the parameter of the result; the others are filled in."""
+    assert document["parameters"]["motions"] == 2
+    assert document["parameters"]["window_seconds"] == 1.3
+
+
+def test_options_are_spelled_as_in_the_api(folder: Path) -> None:
+    """`--window_seconds` and `--window-seconds` are one option."""
+    run = caesura("segment", folder / "take.npz", "--window_seconds", "1", "--method", "joint-entropy", "--json")
+    assert run.returncode == 0, run.stderr
+    assert json.loads(run.stdout)["parameters"]["window_seconds"] == 1
+    assert json.loads(run.stdout)["method"] == "joint-entropy"
+
+
+def test_the_table_is_for_people(folder: Path, document: dict[str, Any]) -> None:
+    """Without --json there is one line a segment, with its frames."""
+    run = caesura("segment", folder / "take.npz", "--motions", "2")
+    assert run.returncode == 0, run.stderr
+    for segment in document["segments"]:
+        assert f"{segment['start']} … {segment['end']:>6}" in run.stdout
+
+
+def test_the_score_of_a_result(folder: Path, tmp_path: Path, document: dict[str, Any]) -> None:
+    """`score` compares a result with the truth; the two motions of this take are plain to see."""
+    (tmp_path / "result.json").write_text(json.dumps(document))
+    run = caesura("score", tmp_path / "result.json", folder / "take.truth.json", "--json")
+    assert run.returncode == 0, run.stderr
+    figures = json.loads(run.stdout)
+    assert figures["frame_accuracy"] > 0.95
+    assert set(figures) == {"frame_accuracy", "adjusted_rand_index", "boundary_f1_0.5_s", "boundary_f1_0.15_s"}
+
+
+def test_the_truth_agrees_with_itself(folder: Path) -> None:
+    """Every figure of the truth against itself is 1."""
+    run = caesura("score", folder / "take.truth.json", folder / "take.truth.json")
+    assert run.returncode == 0, run.stderr
+    assert [line.split()[-1] for line in run.stdout.splitlines()] == ["1.0000"] * 4
+
+
+def test_different_takes_are_not_compared(folder: Path, tmp_path: Path) -> None:
+    """A truth of another length is a bad file."""
+    (tmp_path / "other.json").write_text(
+        json.dumps({"fps": 30, "frames": 9, "segments": [{"label": "a", "start": 0, "end": 9}]})
+    )
+    run = caesura("score", folder / "take.truth.json", tmp_path / "other.json", "--json")
+    assert run.returncode == 3
+    assert json.loads(run.stderr)["code"] == "different-frames"
+
+
+@pytest.mark.parametrize("name", ["page.glb", "empty.glb"])
+def test_a_bad_file_is_a_problem(folder: Path, name: str) -> None:
+    """Exit code 3, nothing on stdout, and on stderr the problem and the file it is about."""
+    run = caesura("segment", folder / name, "--json")
+    assert (run.returncode, run.stdout) == (3, "")
+    problem = json.loads(run.stderr)
+    assert problem["code"] == "unsupported-media-type"
+    assert problem["file"].endswith(name)
+
+
+def test_a_bad_file_is_a_sentence(folder: Path) -> None:
+    """Without --json a person reads one line, and no traceback."""
+    run = caesura("segment", folder / "page.glb")
+    assert run.returncode == 3
+    assert run.stderr.startswith("caesura: ")
+    assert run.stderr.count("\n") == 1
+
+
+def test_a_bad_file_does_not_stop_the_others(folder: Path) -> None:
+    """One line for each file: null for the bad one."""
+    run = caesura("segment", folder / "page.glb", folder / "take.npz", "--motions", "2", "--json")
+    assert run.returncode == 3
+    first, second = (json.loads(line) for line in run.stdout.splitlines())
+    assert first is None
+    assert second["frames"] == FRAMES
+
+
+@pytest.mark.parametrize(
+    "wrong", [["--motions", "0"], ["--motions", "many"], ["--method", "guess"], ["--bins", "1"], ["--nonsense"]]
+)
+def test_wrong_usage(folder: Path, wrong: list[str]) -> None:
+    """A parameter that is not possible ends with 2, as JSON where JSON was asked for."""
+    run = caesura("segment", folder / "take.npz", *wrong, "--json")
+    assert (run.returncode, run.stdout) == (2, "")
+    assert json.loads(run.stderr)["detail"]
+
+
+def test_a_missing_file_is_wrong_usage(folder: Path) -> None:
+    """A name that leads nowhere ends with 2."""
+    assert caesura("segment", folder / "nowhere.glb").returncode == 2
+
+
+def test_no_server(folder: Path) -> None:
+    """A server that does not answer ends with 4."""
+    run = caesura("submit", folder / "take.npz", "--url", f"http://127.0.0.1:{closed_port()}", "--json")
+    assert (run.returncode, run.stdout) == (4, "")
+    assert json.loads(run.stderr)["code"] == "unreachable"
+
+
+def test_submit_prints_what_segment_prints(service: str, folder: Path, document: dict[str, Any]) -> None:
+    """The service gives the same segments as one's own machine."""
+    run = caesura("submit", folder / "take.npz", "--url", service, "--motions", "2", "--json")
+    assert run.returncode == 0, run.stderr
+    found = json.loads(run.stdout)
+    assert found["id"]
+    assert found["segments"] == document["segments"]
+    assert found["energy"] == document["energy"]
+
+
+def test_submit_of_a_bad_file(service: str, folder: Path) -> None:
+    """What the service refuses ends with 3 and the service's own problem."""
+    run = caesura("submit", folder / "page.glb", "--url", service, "--json")
+    assert (run.returncode, run.stdout) == (3, "")
+    assert json.loads(run.stderr)["code"] == "unsupported-media-type"
+
+
+def test_the_demo(service: str) -> None:
+    """Both sample figures are cut as they were made, 95 frames of 100, through a running service."""
+    run = caesura("demo", "--once", "--url", service)
+    assert run.returncode == 0, run.stdout + run.stderr
+    assert run.stdout.count("frame accuracy") == 2

@@ -1,0 +1,96 @@
+"""What the pages say is so: their commands exist, their links lead somewhere, every call is listed."""
+
+import re
+from pathlib import Path
+from urllib.parse import unquote
+
+import pytest
+
+from core.errors import KINDS
+from service.app import create_app
+from service.cli import main
+from service.errors import STATUS
+from service.settings import ServiceSettings
+
+PAGES = sorted(p.relative_to(Path(__file__).parent.parent) for p in Path(__file__).parent.parent.glob("docs/*.md"))
+PAGES += [Path("README.md"), Path("CHANGELOG.md")]
+RAISED = re.compile(
+    r"\b(?:InputError|UnsupportedMedia|BrokenContainer|InvalidModel|LimitExceeded|ParameterError|Refusal|worker_problem)"
+    r'\(\s*"([a-z0-9-]+)"'
+)
+LOCKS = ["requirements.lock", "requirements.runtime.lock", "package-lock.json"]
+
+
+def blocks(page: str) -> str:
+    """The code of a page, and nothing else."""
+    return "\n".join(re.findall(r"```\w*\n(.*?)```", page, re.DOTALL))
+
+
+def anchors(page: str) -> set[str]:
+    """The places of a page that a link can name: its headings, as they are shown on the web."""
+    headings = re.findall(r"^#+ (.+)$", page, re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading).strip().lower().replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=str)
+def test_links_lead_somewhere(checkout: Path, page: Path) -> None:
+    """A link to a file or a heading of the project finds it."""
+    text = (checkout / page).read_text(encoding="utf-8")
+    for link in re.findall(r"\]\(([^)\s]+)\)", text):
+        if "://" in link:
+            continue
+        path, _, anchor = unquote(link).partition("#")
+        target = (checkout / page).parent / path if path else checkout / page
+        assert target.exists(), f"{page} links to {link}"
+        if anchor:
+            assert anchor in anchors(target.read_text(encoding="utf-8")), f"{page} links to {link}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=str)
+def test_commands_exist(checkout: Path, page: Path) -> None:
+    """Every `make X` and `caesura X` that a page shows can be run."""
+    makefile = (checkout / "Makefile").read_text(encoding="utf-8")
+    code = blocks((checkout / page).read_text(encoding="utf-8"))
+    targets = set(re.findall(r"^([a-z]+):", makefile, re.MULTILINE))
+    assert set(re.findall(r"\bmake ([a-z]+)", code)) <= targets
+    assert set(re.findall(r"\bcaesura ([a-z]+)", code)) <= set(main.commands)
+
+
+@pytest.mark.parametrize("lock", LOCKS)
+def test_locks_name_no_registry(checkout: Path, lock: str) -> None:
+    """What is locked are names, versions and digests: whoever installs chooses where from."""
+    assert "://" not in (checkout / lock).read_text(encoding="utf-8")
+
+
+def test_the_image_installs_what_was_tested(checkout: Path) -> None:
+    """The image's lock is a part of the lock that the tests ran with: same versions, same digests."""
+    runtime, tested = (
+        {line for line in (checkout / name).read_text().splitlines() if line.strip() and "#" not in line}
+        for name in ("requirements.runtime.lock", "requirements.lock")
+    )
+    assert runtime < tested
+
+
+def test_every_call_is_documented(checkout: Path) -> None:
+    """docs/api.md lists each call of the OpenAPI document, and no other."""
+    calls = {
+        f"{method.upper()} {path}"
+        for path, methods in create_app(ServiceSettings()).openapi()["paths"].items()
+        for method in methods
+    }
+    listed = re.findall(r"^\| `([A-Z]+ /[^`]+)`", (checkout / "docs/api.md").read_text(encoding="utf-8"), re.MULTILINE)
+    assert set(listed) == calls
+
+
+def test_every_problem_is_documented(checkout: Path) -> None:
+    """docs/api.md says what each code means that the service can answer with."""
+    page = (checkout / "docs/api.md").read_text(encoding="utf-8").partition("## Problems")[2]
+    raised = {
+        code
+        for folder in ("core", "service", "worker")
+        for path in (checkout / folder).rglob("*.py")
+        if "commands" not in path.parts
+        for code in RAISED.findall(path.read_text(encoding="utf-8"))
+    }
+    codes = {code for code in STATUS if code not in {*KINDS, "request", "worker"}}
+    assert {code for code in raised | codes if f"`{code}`" not in page} == set()
