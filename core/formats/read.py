@@ -2,10 +2,13 @@
 
 from collections.abc import Callable, Mapping
 from mmap import mmap
+from typing import BinaryIO, cast
 
-from core.animation import Animation
+from core.animation import Animation, Take
 from core.errors import InvalidModel, UnsupportedMedia
+from core.formats.buffer_file import BufferFile
 from core.formats.gltf.read import read_gltf
+from core.formats.header import read_header
 from core.formats.npz import read_npz
 from core.formats.sniffing import SNIFFED, sniff
 from core.limits import Limits
@@ -31,11 +34,21 @@ def read_animation(parts: Mapping[str, Part], parameters: Parameters, limits: Li
     return read_gltf(data, views, parameters, limits)
 
 
+def takes(parts: Mapping[str, Part], limits: Limits) -> tuple[Take, ...]:
+    """The takes that an upload offers, by its headers alone; frames and rates are estimates there."""
+    views = {name: memoryview(part).toreadonly() for name, part in parts.items()}
+    name = main_part(views)
+    header = read_header(cast("BinaryIO", BufferFile(views[name])), name, limits)
+    return tuple(
+        Take(take.index, take.name, take.duration_seconds, take.frames, take.frame_rate) for take in header.takes
+    )
+
+
 def main_part(parts: Mapping[str, memoryview]) -> str:
-    """The name of the part that is the model: the only one, or the only one that is a glTF."""
+    """The name of the part that is the animation itself: the only one, or the only one that can be read alone."""
     if len(parts) == 1:
         return next(iter(parts))
-    models = [name for name, data in parts.items() if _is_model(data)]
+    models = [name for name, data in parts.items() if _is_model(name, data)]
     if len(models) == 1:
         return models[0]
     raise InvalidModel(
@@ -44,8 +57,11 @@ def main_part(parts: Mapping[str, memoryview]) -> str:
     )
 
 
-def _is_model(data: memoryview) -> bool:
+def _is_model(name: str, data: memoryview) -> bool:
+    if name.lower().endswith(".bin"):  # a buffer may begin with any bytes
+        return False
     try:
-        return sniff(bytes(data[:SNIFFED])) in {"glb", "gltf"}
+        sniff(bytes(data[:SNIFFED]))
     except UnsupportedMedia:
         return False
+    return True

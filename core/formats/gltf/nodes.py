@@ -69,6 +69,7 @@ def read_nodes(document: Document) -> NodeGraph:
             matrix[node] = np.reshape(entry.numbers("matrix", 16, ()), (4, 4)).T[:3].reshape(-1)
         else:
             _read_pose(entry, pose[node])
+    pose[:, R] = unit_rotations(pose[:, R])
     return NodeGraph(entries, parent, np.array(order, np.int64), children, pose, matrix, has_matrix)
 
 
@@ -132,7 +133,6 @@ def _read_pose(entry: Entry, pose: Float[np.ndarray, "10"]) -> None:
     pose[S] = entry.numbers("scale", 3, STILL[S])
     if not np.any(pose[R]):
         raise entry.refusal("The rotation is zero, which is no rotation.", name="rotation")
-    pose[R] = unit_rotations(pose[None, R])[0]
 
 
 def unit_rotations(
