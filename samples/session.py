@@ -27,11 +27,12 @@ def long_session(frames: int = 72_000) -> Sample:
     performances of one motion never touch. The same bytes at every call.
     """
     random = np.random.default_rng(SEED)
-    take = perform(_schedule(frames, random), random)
+    take = perform(schedule(frames, random), random)
     return Sample(smooth_glb(body(), take), take.truth)
 
 
-def _schedule(frames: int, random: np.random.Generator) -> list[Part]:
+def schedule(frames: int, random: np.random.Generator) -> list[Part]:
+    """What is performed, in order: frames of all parts sum to `frames`."""
     parts = [_part(T_POSE, CALIBRATION, random)]
     left = frames - parts[0].frames
     last = ""

@@ -2,12 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import product
+from itertools import combinations, product
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
 BLEND = 0.85  # of the thinner end's radius: how far the join with the rest is rounded
+TOUCH = 1e-6  # metres inside: a corner that was taken into the body
 POLISH = 4  # rounds of evening out the triangles and returning to the surface
 
 
@@ -62,7 +63,7 @@ def skin(limbs: Sequence[Limb], cell: float) -> Surface:
     axes = [np.arange(a, b, cell) for a, b in zip(low, high, strict=True)]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
     values = union(limbs, grid.reshape(-1, 3)).reshape(grid.shape[:3])
-    vertices, triangles = surface_nets(values)
+    vertices, triangles = surface_nets(decided(values))
     vertices = low + vertices * cell
     for _ in range(POLISH):
         vertices += 0.6 * (neighbour_mean(vertices, triangles) - vertices)
@@ -95,6 +96,21 @@ def surface_nets(
     return vertices, _split(vertices, np.concatenate(quads))
 
 
+def decided(values: Float[np.ndarray, "x y z"]) -> Float[np.ndarray, "x y z"]:
+    """Values without a lattice square whose signs alternate around it, for there four triangles would meet at an edge.
+
+    The nearer of the two outer corners joins the body, so this ends; the surface is put back in its place afterwards.
+    """
+    values = values.copy()
+    squares = [np.array([0 * u, u, u + v, v]) for u, v in combinations(np.eye(3, dtype=np.int64), 2)]
+    while len(doubtful := np.concatenate([_alternating(values, square) for square in squares])):
+        for corners in doubtful:
+            outer = [tuple(corner) for corner in corners if values[tuple(corner)] >= 0]
+            if outer:  # not yet settled by a neighbouring square
+                values[min(outer, key=values.__getitem__)] = -TOUCH
+    return values
+
+
 def neighbour_mean(values: Float[np.ndarray, "V n"], triangles: Int[np.ndarray, "T 3"]) -> Float[np.ndarray, "V n"]:
     """The mean over the neighbours of each vertex of a closed surface."""
     total, count = np.zeros_like(values), np.zeros(len(values))
@@ -122,6 +138,15 @@ def _crossings(
     point = np.moveaxis(np.indices(crossed.shape, dtype=np.float64), 0, -1)
     point[..., axis] += np.where(crossed, near / np.where(crossed, near - far, 1.0), 0.0)
     return crossed, point
+
+
+def _alternating(values: Float[np.ndarray, "x y z"], square: Int[np.ndarray, "4 3"]) -> Int[np.ndarray, "n 4 3"]:
+    """The corners of every lattice square of one orientation whose signs alternate."""
+    places = np.array(values.shape) - square.max(axis=0)
+    signs = [values[tuple(slice(c, c + n) for c, n in zip(corner, places, strict=True))] < 0 for corner in square]
+    a, b, c, d = signs
+    corners: Int[np.ndarray, "n 4 3"] = np.argwhere((a == c) & (b == d) & (a != b))[:, None, :] + square
+    return corners
 
 
 def _quads(
