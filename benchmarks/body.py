@@ -74,12 +74,12 @@ class Body:
         return np.ascontiguousarray(vertices.transpose(1, 0, 2), dtype=np.float32)
 
 
-def body(skeleton: Acclaim) -> Body:
-    """The body of a CMU skeleton at rest: arms out, legs a little apart."""
+def body(skeleton: Acclaim, sharpness: float = SHARPNESS) -> Body:
+    """The body of a CMU skeleton at rest, arms out, legs a little apart; `sharpness` as in `heat_weights`."""
     _, starts = skeleton.pose({}, 1)
     forms = limbs(skeleton, starts[0])
     surface = skin(forms, CELL)
-    return Body(surface, heat_weights(surface, forms, len(skeleton.bones), SHARPNESS), starts[0])
+    return Body(surface, heat_weights(surface, forms, len(skeleton.bones), sharpness), starts[0])
 
 
 def limbs(skeleton: Acclaim, starts: Float[np.ndarray, "bones 3"]) -> list[Limb]:

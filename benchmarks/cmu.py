@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from benchmarks.acclaim import Acclaim, read_motion, read_skeleton
-from benchmarks.body import Body, body
+from benchmarks.body import SHARPNESS, Body, body
 from core.animation import Animation, Take
 
 STEP = 4
@@ -52,11 +52,11 @@ class _Skinned:
         return self.shape.posed(self.rotations[start:stop], self.starts[start:stop])
 
 
-def skinned(folder: Path, trial: str) -> Animation:
+def skinned(folder: Path, trial: str, sharpness: float = SHARPNESS) -> Animation:
     """One trial, such as `86_09`, as a deforming mesh at 30 frames a second; its rest shape is the skeleton's."""
     subject, _, _ = trial.partition("_")
     skeleton = read_skeleton((folder / f"{subject}.asf").read_text())
-    return animation(skeleton, body(skeleton), (folder / f"{trial}.amc").read_text(), trial)
+    return animation(skeleton, body(skeleton, sharpness), (folder / f"{trial}.amc").read_text(), trial)
 
 
 def animation(skeleton: Acclaim, shape: Body, motion: str, name: str) -> Animation:
