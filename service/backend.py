@@ -14,9 +14,10 @@ from fastapi import Depends, Request
 from service.errors import Refusal
 from service.settings import ServiceSettings
 from worker import ids
+from worker.async_records import AsyncRecords
 from worker.blobs import Blobs
 from worker.jobs import Jobs
-from worker.records import AsyncRecords, connect
+from worker.records import connect
 from worker.schema import AnimationRecord, SegmentationRecord
 
 

@@ -1,6 +1,6 @@
 """Deleting what was kept: blobs before the record that points to them, so that it can be repeated when cut short."""
 
-from worker import schema
+from worker import keys
 from worker.blobs import Blobs
 from worker.jobs import Jobs
 from worker.schema import AnimationRecord
@@ -14,7 +14,7 @@ def forget_segmentation(jobs: Jobs, blobs: Blobs, identifier: str) -> None:
         made = jobs.records.export(identifier, form)
         if made is not None and made.key is not None:
             blobs.delete(made.key)
-        jobs.redis.delete(schema.export_key(identifier, form))
+        jobs.redis.delete(keys.export_key(identifier, form))
     jobs.delete(identifier)
 
 

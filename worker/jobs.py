@@ -24,7 +24,7 @@ from rq.job import Job
 from rq.serializers import JSONSerializer
 from rq.timeouts import JobTimeoutException as TimeLimit
 
-from worker import ids, schema
+from worker import ids, keys
 from worker.records import Records, connect
 from worker.schema import ExportRecord, Queue, SegmentationRecord
 from worker.settings import WorkerSettings
@@ -111,7 +111,7 @@ class Jobs:
 
     def submit_export(self, identifier: str, form: str) -> ExportRecord:
         """Have a file made of a result that is done, unless it is there or being made; see `Records.export`."""
-        key = schema.export_key(identifier, form)
+        key = keys.export_key(identifier, form)
         with self.redis.pipeline() as pipe:
             pipe.watch(key)
             kept = self.records.export(identifier, form)
@@ -172,14 +172,14 @@ class Jobs:
 
     def sweep_sometimes(self) -> None:
         """Queue a look for what is kept too long, where nobody has within the last hour. Call it at any time."""
-        if self.redis.set(schema.SWEPT_KEY, b"1", nx=True, ex=SWEEP_SECONDS):
+        if self.redis.set(keys.SWEPT_KEY, b"1", nx=True, ex=SWEEP_SECONDS):
             with self.redis.pipeline() as pipe:
                 self._call("cut", "sweep", [], ids.token(), SWEEP_SECONDS, pipe)
                 pipe.execute()
 
     def _attended(self, record: SegmentationRecord) -> bool:
         if record.status == "running":
-            return bool(self.redis.exists(schema.lease_key(record.token)))
+            return bool(self.redis.exists(keys.lease_key(record.token)))
         return self.redis.lpos(self._queues[record.queue].key, record.token) is not None
 
     # One attempt, one RQ job.
@@ -195,7 +195,7 @@ class Jobs:
     def _enqueue(self, pipe: Pipeline, record: SegmentationRecord) -> None:
         if record.status == "queued":
             self._call(record.queue, record.queue, [record.id, record.token], record.token, self._seconds, pipe)
-            pipe.zadd(schema.USED_KEY, {record.animation: time.time()}, xx=True)
+            pipe.zadd(keys.USED_KEY, {record.animation: time.time()}, xx=True)
 
     def _call(self, queue: Queue, task: str, args: list[str], job_id: str, seconds: int, pipe: Any) -> None:
         self._queues[queue].enqueue_call(

@@ -4,7 +4,7 @@ import asyncio
 import time
 from contextlib import aclosing
 
-from worker.records import AsyncRecords
+from worker.async_records import AsyncRecords
 
 
 def reading(idle, use):

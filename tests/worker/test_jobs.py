@@ -5,7 +5,7 @@ import signal
 import time
 
 from tests.installation import descendants
-from worker import schema
+from worker import keys
 from worker.jobs import QUEUES, worker_problem
 from worker.records import LEASE_SECONDS
 
@@ -75,9 +75,9 @@ def test_a_running_job_without_a_sign_of_life_is_tried_again(idle, take):
     """Not at first sight, which may be a clock that jumped, but at the second."""
     record = idle.submit(idle.upload(take))
     running = idle.records.begin(record.id, record.token)
-    assert 0 < idle.redis.ttl(schema.lease_key(running.token)) <= LEASE_SECONDS
+    assert 0 < idle.redis.ttl(keys.lease_key(running.token)) <= LEASE_SECONDS
     assert idle.jobs.reconcile() == 0
-    idle.redis.delete(schema.lease_key(running.token))
+    idle.redis.delete(keys.lease_key(running.token))
     assert [idle.jobs.reconcile(), idle.jobs.reconcile(), idle.jobs.reconcile()] == [0, 1, 0]
     assert idle.records.segmentation(record.id).attempt == 2
 
@@ -95,7 +95,7 @@ def test_a_deleted_segmentation_leaves_nothing(idle, take):
     record = idle.submit(idle.upload(take))
     idle.jobs.delete(record.id)
     assert not [key for key in idle.redis.scan_iter() if record.id.encode() in key]
-    assert not idle.redis.smembers(schema.LIVE_KEY)
+    assert not idle.redis.smembers(keys.LIVE_KEY)
     assert idle.jobs.depths() == {"analyse": 0, "cut": 0}
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from worker import schema
+from worker import keys, schema
 from worker.retention import sweep
 
 LONG = 1e9
@@ -31,7 +31,7 @@ def test_what_is_in_use_stays(place, done):
 def test_an_unused_upload_goes_before_its_results(place, done, take):
     """Its result is still read; a new cut needs the file again; and the same bytes may come again."""
     animation, cut = done
-    place.redis.zadd(schema.USED_KEY, {animation.id: 0})
+    place.redis.zadd(keys.USED_KEY, {animation.id: 0})
     sweep(place.jobs, place.blobs, 3600, LONG)
     assert files(place, *done) == []
     assert place.records.result(cut.id)[0] is not None
@@ -46,7 +46,7 @@ def test_an_unused_upload_goes_before_its_results(place, done, take):
 def test_use_is_what_counts(place, done):
     """To ask for another cut is a use, and what is queued keeps its upload."""
     animation, _ = done
-    place.redis.zadd(schema.USED_KEY, {animation.id: 0})
+    place.redis.zadd(keys.USED_KEY, {animation.id: 0})
     assert place.ended(place.submit(animation, motions=2).id).status == "done"
     sweep(place.jobs, place.blobs, 3600, LONG)
     assert len(files(place, *done)) == 4
@@ -55,9 +55,9 @@ def test_use_is_what_counts(place, done):
 def test_an_old_result_goes_and_the_record_with_the_last_one(place, done):
     """Nothing of it stays: no blob, no key."""
     animation, cut = done
-    place.redis.zadd(schema.USED_KEY, {animation.id: 0})
+    place.redis.zadd(keys.USED_KEY, {animation.id: 0})
     kept = place.records.segmentation(cut.id).with_(updated=0.0)
-    place.redis.set(schema.segmentation_key(cut.id), kept.model_dump_json())
+    place.redis.set(keys.segmentation_key(cut.id), kept.model_dump_json())
     sweep(place.jobs, place.blobs, 3600, LONG / 1e3)
     assert files(place, *done) == []
     assert not [key for key in place.redis.scan_iter() if animation.id.encode() in key or cut.id.encode() in key]

@@ -1,0 +1,91 @@
+"""The records as the web process reads them: without blocking, and waiting without asking again and again."""
+
+import asyncio
+from collections.abc import AsyncGenerator
+from contextlib import aclosing
+
+import redis.asyncio
+
+from worker import keys
+from worker.records import names
+from worker.schema import AnimationRecord, ExportRecord, SegmentationRecord
+
+REREAD_SECONDS = 3.0  # a message may be missed where a connection breaks
+
+
+class AsyncRecords:
+    """The same records as the web process reads them. It changes nothing: that goes through `Jobs`."""
+
+    def __init__(self, url: str) -> None:
+        self.redis: redis.asyncio.Redis = redis.asyncio.Redis.from_url(url, health_check_interval=30)
+
+    async def close(self) -> None:
+        """Give the connections back."""
+        await self.redis.aclose()
+
+    async def animation(self, identifier: str) -> AnimationRecord | None:
+        """The animation, or None."""
+        return AnimationRecord.read(await self.redis.get(keys.animation_key(identifier)))
+
+    async def animations(self, owner: str, limit: int, before: float | None = None) -> list[AnimationRecord]:
+        """An owner's animations, newest first; `before` is the `created` of the last one seen."""
+        highest = "+inf" if before is None else f"({before!r}"
+        ids = names(await self.redis.zrevrangebyscore(keys.animations_key(owner), highest, "-inf", start=0, num=limit))
+        stored = await self.redis.mget([keys.animation_key(i) for i in ids]) if ids else []
+        return [record for record in map(AnimationRecord.read, stored) if record is not None]
+
+    async def segmentation(self, identifier: str) -> SegmentationRecord | None:
+        """The segmentation, or None."""
+        return SegmentationRecord.read(await self.redis.get(keys.segmentation_key(identifier)))
+
+    async def segmentations(self, animation: str) -> list[SegmentationRecord]:
+        """All segmentations of an animation, newest first."""
+        ids = names(await self.redis.zrevrange(keys.segmentations_key(animation), 0, -1))
+        stored = await self.redis.mget([keys.segmentation_key(i) for i in ids]) if ids else []
+        return [record for record in map(SegmentationRecord.read, stored) if record is not None]
+
+    async def document(self, identifier: str) -> bytes | None:
+        """The result document, JSON, as stored."""
+        return _bytes(await self.redis.get(keys.segmentation_key(identifier, "document")))
+
+    async def energy(self, identifier: str) -> bytes | None:
+        """The energy curve: little-endian float32."""
+        return _bytes(await self.redis.get(keys.segmentation_key(identifier, "energy")))
+
+    async def labels(self, identifier: str) -> bytes | None:
+        """The motion of every frame: little-endian uint16."""
+        return _bytes(await self.redis.get(keys.segmentation_key(identifier, "labels")))
+
+    async def export(self, segmentation: str, form: str) -> ExportRecord | None:
+        """A file made of a result, or None where none was asked for."""
+        return ExportRecord.read(await self.redis.get(keys.export_key(segmentation, form)))
+
+    async def changes(self, identifier: str) -> AsyncGenerator[SegmentationRecord | None, None]:
+        """The record now, and again after every change and every 3 s; None once it is deleted.
+
+        Subscribes before it reads, so that no change is missed. Ends never: leave it through
+        `async with aclosing(records.changes(id)) as changes`, which gives its connection back.
+        """
+        async with self.redis.pubsub() as listener:
+            await listener.subscribe(keys.channel(identifier))
+            await listener.get_message(timeout=REREAD_SECONDS)  # the server's word that it listens
+            while True:
+                yield await self.segmentation(identifier)
+                await listener.get_message(ignore_subscribe_messages=True, timeout=REREAD_SECONDS)
+
+    async def wait(self, identifier: str, seconds: float) -> SegmentationRecord | None:
+        """The record as soon as it is no longer live, or as it is after `seconds`."""
+        try:
+            async with asyncio.timeout(seconds):
+                async with aclosing(self.changes(identifier)) as changes:
+                    async for record in changes:
+                        if record is None or not record.live:
+                            return record
+        except TimeoutError:
+            pass
+        return await self.segmentation(identifier)
+
+
+def _bytes(stored: bytes | str | None) -> bytes | None:
+    """redis-py types a value `bytes | str`; without `decode_responses` it is bytes."""
+    return stored.encode() if isinstance(stored, str) else stored

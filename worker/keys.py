@@ -1,0 +1,72 @@
+"""The names of what Redis holds of ours, in one place. RQ's keys are RQ's own affair.
+
+| key | type | value |
+|---|---|---|
+| caesura:secret | string | key of all ids |
+| caesura:animation:ID | string | AnimationRecord, JSON |
+| caesura:animations:OWNER | sorted set | ids of animations by time of creation |
+| caesura:used | sorted set | ids of all animations by the time of their last use |
+| caesura:segmentation:ID | string | SegmentationRecord, JSON |
+| caesura:segmentation:ID:document | string | the result document, JSON |
+| caesura:segmentation:ID:energy | string | little-endian float32, one per frame, NaN where there is none |
+| caesura:segmentation:ID:labels | string | little-endian uint16, one per frame |
+| caesura:segmentations:ANIMATION | sorted set | ids of segmentations by time of creation |
+| caesura:live | set | ids of segmentations that are queued or running |
+| caesura:lease:TOKEN | string, expires | the attempt has a living worker |
+| caesura:analysis:ANIMATION:DIGEST | string | AnalysisRecord, JSON |
+| caesura:analyses:ANIMATION | set | the digests of an animation's analyses |
+| caesura:export:ID:FORMAT | string | ExportRecord, JSON |
+| caesura:swept | string, expires | somebody looked lately for what is kept too long |
+| caesura:changed:ID | channel | told at every change of a segmentation or its exports |
+"""
+
+from typing import Literal
+
+LIVE_KEY = "caesura:live"
+USED_KEY = "caesura:used"
+SWEPT_KEY = "caesura:swept"
+
+
+def animation_key(identifier: str) -> str:
+    """One animation."""
+    return f"caesura:animation:{identifier}"
+
+
+def animations_key(owner: str) -> str:
+    """An owner's animations, by time."""
+    return f"caesura:animations:{owner}"
+
+
+def segmentation_key(identifier: str, part: Literal["", "document", "energy", "labels"] = "") -> str:
+    """One segmentation's record, or a part of its result."""
+    return f"caesura:segmentation:{identifier}" + (f":{part}" if part else "")
+
+
+def segmentations_key(animation: str) -> str:
+    """An animation's segmentations, by time."""
+    return f"caesura:segmentations:{animation}"
+
+
+def analysis_key(animation: str, digest: str) -> str:
+    """One analysis."""
+    return f"caesura:analysis:{animation}:{digest}"
+
+
+def analyses_key(animation: str) -> str:
+    """An animation's analyses."""
+    return f"caesura:analyses:{animation}"
+
+
+def export_key(segmentation: str, form: str) -> str:
+    """One file made of a result."""
+    return f"caesura:export:{segmentation}:{form}"
+
+
+def lease_key(token: str) -> str:
+    """The sign of life of an attempt."""
+    return f"caesura:lease:{token}"
+
+
+def channel(segmentation: str) -> str:
+    """Where changes of a segmentation are told."""
+    return f"caesura:changed:{segmentation}"
