@@ -47,6 +47,12 @@ export class BlockFile {
     return block.subarray(within * size, (within + 1) * size);
   }
 
+  /** Ask for the block after the one of `frame`, so that playing never waits for it. */
+  ahead(frame) {
+    const next = frame + this.perBlock;
+    if (next < this.header.frames && !this.has(next)) this.fetch(next).catch(() => {});
+  }
+
   has(frame) { return this.#blocks.has(Math.floor(frame / this.perBlock)); }
 
   /** Fetch the block of a frame; many askers, one request. */

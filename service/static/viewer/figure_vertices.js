@@ -35,7 +35,11 @@ class VerticesFigure {
     this.pose(0);
   }
 
-  ready(frame) { return this.#file.has(frame) || void this.fetch(frame).catch(() => {}) || false; }
+  ready(frame) {
+    if (this.#file.has(frame)) return true;
+    this.fetch(frame).catch(() => {});
+    return false;
+  }
 
   fetch(frame) { return this.#file.fetch(frame); }
 
@@ -47,8 +51,7 @@ class VerticesFigure {
       this.#positions.array.set(values);
       this.#positions.needsUpdate = true;
       this.#light(values);
-      const ahead = frame + this.#file.perBlock;
-      if (ahead < this.#file.header.frames && !this.#file.has(ahead)) this.fetch(ahead).catch(() => {});
+      this.#file.ahead(frame);
     }
     this.object.updateMatrixWorld(true);
   }

@@ -2,3 +2,6 @@
 // all the way, so that the order is read without telling hues apart.
 
 export const HEAT = ['#d5d2ca', '#f0c15a', '#e8712e', '#ae1f57', '#43106b'];
+
+/** Colour moves with strain to this power: most of a body is strained a little, and a little should be seen. */
+export const BEND = 0.7;

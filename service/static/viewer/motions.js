@@ -28,7 +28,7 @@ export function listed(document, go) {
     current = rows[index];
     current?.setAttribute('aria-current', 'true');
     const { scrollTop, clientHeight } = list;
-    const top = current ? current.offsetTop - list.offsetTop : scrollTop;
+    const top = current ? current.offsetTop : scrollTop; // the list is the rows' offset parent
     if (top < scrollTop || top + 36 > scrollTop + clientHeight) list.scrollTop = top - clientHeight / 2;
   };
 }

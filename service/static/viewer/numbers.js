@@ -1,6 +1,8 @@
 // Numbers as people read them.
 
-export const whole = (n) => n.toLocaleString('en-US').replaceAll(',', '\u202f');
+const GROUPED = new Intl.NumberFormat('en-US');
+
+export const whole = (n) => GROUPED.format(n).replaceAll(',', '\u202f');
 
 export function duration(seconds) {
   if (seconds < 60) return `${seconds.toFixed(seconds < 10 ? 2 : 1)} s`;

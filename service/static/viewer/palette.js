@@ -23,15 +23,17 @@ export const inkOn = (hex) => (luminance(hex) > 0.179 ? '#14161a' : '#ffffff');
 /** Which texture goes over the colour: 0 none, 1 stripes, 2 dots, 3 both ways striped, then again. */
 export const textureOf = (motion) => Math.floor(motion / COLOURS.length) % 4;
 
-const patterns = new Map();
+const tiles = new Map();
 
 /** A canvas fill of a motion: its colour and, from the thirteenth motion on, its texture. */
 export function fillOf(motion, context) {
-  const texture = textureOf(motion);
-  if (!texture) return colourOf(motion);
-  const key = `${motion % COLOURS.length}/${texture}`;
-  if (!patterns.has(key)) patterns.set(key, drawn(motion, texture));
-  return context.createPattern(patterns.get(key), 'repeat');
+  if (!textureOf(motion)) return colourOf(motion);
+  return context.createPattern(tileOf(motion), 'repeat');
+}
+
+function tileOf(motion) {
+  if (!tiles.has(motion)) tiles.set(motion, drawn(motion, textureOf(motion)));
+  return tiles.get(motion);
 }
 
 function drawn(motion, texture) {
@@ -50,14 +52,13 @@ function drawn(motion, texture) {
   return tile;
 }
 
-/** A small picture of a motion's fill, for lists. */
+/** The same fill for lists; the style sheet draws the textures. */
 export function swatch(motion) {
-  const canvas = document.createElement('canvas');
-  canvas.width = canvas.height = 28;
-  canvas.className = 'swatch';
-  canvas.setAttribute('aria-hidden', 'true');
-  const context = canvas.getContext('2d');
-  context.fillStyle = fillOf(motion, context);
-  context.fillRect(0, 0, 28, 28);
-  return canvas;
+  const mark = document.createElement('i');
+  mark.className = 'swatch';
+  mark.setAttribute('aria-hidden', 'true');
+  mark.style.backgroundColor = colourOf(motion);
+  mark.dataset.texture = textureOf(motion);
+  mark.style.color = inkOn(colourOf(motion));
+  return mark;
 }

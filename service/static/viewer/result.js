@@ -24,6 +24,7 @@ export class Result {
   constructor(document) {
     const { signal } = this.#gone;
     this.clock = new Clock(document.frames, document.frame_rate, (frame) => this.#ready(frame));
+    this.clock.speed = Number($('speed').value);
     this.span = new Span(document.frames);
     this.#take(document);
     this.curve = new Curve($('curve'), document, this.span, signal);
@@ -163,6 +164,7 @@ export class Result {
     const frame = clock.frame;
     const index = this.indexAt(frame);
     if (clock.playing) this.#follow(frame);
+    if (!clock.loop && $('loop').checked) this.loop(true);
     this.#place();
     const field = $('frame');
     if (field !== window.document.activeElement) field.value = frame;

@@ -2,7 +2,7 @@
 
 import { Color, DataTexture, NearestFilter, RedFormat, UnsignedByteType } from 'three';
 import { BlockFile } from './blocks.js';
-import { HEAT } from './heat.js';
+import { BEND, HEAT } from './heat.js';
 
 const CLAY = new Color(HEAT[0]);
 
@@ -13,12 +13,13 @@ uniform float patches;
 varying float vStrain;
 `;
 const FRAGMENT = `
+#define BEND ${BEND}
 uniform vec3 heat[5];
 uniform vec3 tint;
 uniform float heated;
 varying float vStrain;
 vec3 heatOf(float s) {
-  float x = clamp(s, 0.0, 1.0) * 4.0;
+  float x = pow(clamp(s, 0.0, 1.0), BEND) * 4.0;
   vec3 c = mix(heat[0], heat[1], clamp(x, 0.0, 1.0));
   c = mix(c, heat[2], clamp(x - 1.0, 0.0, 1.0));
   c = mix(c, heat[3], clamp(x - 2.0, 0.0, 1.0));
@@ -75,6 +76,7 @@ export class Strain {
     const map = this.uniforms.strainMap.value;
     map.image.data.set(values);
     map.needsUpdate = true;
+    this.#file.ahead(frame);
     return true;
   }
 
