@@ -2,6 +2,7 @@
 
 import io
 import signal
+from contextlib import suppress
 from itertools import zip_longest
 
 import click
@@ -33,8 +34,9 @@ def demo(context: click.Context, /, once: bool, port: int, url: str | None) -> N
         with local_service(port) as started:
             accuracy = _demonstrate(started)
             if not once:
-                click.echo("Ctrl-C ends it.")
-                signal.pause()
+                click.echo(f"Drop files of your own on {started} ; Ctrl-C ends it.")
+                with suppress(KeyboardInterrupt):
+                    signal.pause()
     context.exit(0 if accuracy >= GOOD_ACCURACY else 1)
 
 
