@@ -15,7 +15,7 @@ help:
 	@echo "make test    set up, then everything that CI runs"
 	@echo "make setup   the environment alone: .venv with the command caesura, and the page's libraries"
 	@echo "make lint    format, rules, types and layers"
-	@echo "make bench   measure accuracy and speed, and write docs/accuracy.md and docs/performance.md"
+	@echo "make bench   measure accuracy, and write docs/accuracy.md"
 	@echo "make lock    resolve the dependencies anew (needs uv)"
 	@echo "make clean   take away all that make made"
 
