@@ -2,7 +2,6 @@
 
 import numpy as np
 from jaxtyping import Float, Int
-from threadpoolctl import threadpool_limits
 
 from core.analysis import Features
 from core.windows import speeds
@@ -28,9 +27,8 @@ def refined(
     poses = poses_and_speeds(features, frame_rate)
     if len(cuts) == 0 or poses.shape[1] == 0:
         return labels
-    with threadpool_limits(1):
-        examples = _examples(poses, labels, cuts, round(GUARD_SECONDS * frame_rate))
-        moved = _moved(poses, labels, cuts, examples, max(round(REACH_SECONDS * frame_rate), 1))
+    examples = _examples(poses, labels, cuts, round(GUARD_SECONDS * frame_rate))
+    moved = _moved(poses, labels, cuts, examples, max(round(REACH_SECONDS * frame_rate), 1))
     bounds = np.concatenate([[0], cuts])
     lengths = np.diff(np.concatenate([[0], moved, [len(labels)]]))
     return np.asarray(np.repeat(labels[bounds], lengths))

@@ -1,5 +1,7 @@
 """Slow, obvious twins of what the core computes, in float64 and plain loops."""
 
+from itertools import pairwise
+
 import numpy as np
 
 # --- strain, energy, boundaries (paper, sections 3 and 4) ---
@@ -63,3 +65,57 @@ def algorithm_1_as_printed(curve, window):
         elif keys[-1] != loc:
             keys[-1] = loc
     return keys
+
+
+# --- windows and switching k-means ---
+
+
+def windows(values, half, frame_rate):
+    """Mean, standard deviation and RMS speed of each window, window by window."""
+    speed = np.zeros_like(values) if len(values) < 2 else np.gradient(values, axis=0) * frame_rate
+    cut = [slice(max(i - half, 0), i + half + 1) for i in range(len(values))]
+    mean = np.array([values[w].mean(axis=0) for w in cut])
+    deviation = np.array([values[w].std(axis=0) for w in cut])
+    return mean, deviation, np.array([np.sqrt((speed[w] ** 2).mean(axis=0)) for w in cut])
+
+
+def cheapest_labels(cost, penalty):
+    """The least Σ cost[t, label] + penalty · changes over every possible labelling, and a labelling that has it."""
+    steps, states = cost.shape
+    best = (np.inf, None)
+    for code in range(states**steps):
+        labels = [code // states**t % states for t in range(steps)]
+        changes = sum(a != b for a, b in pairwise(labels))
+        total = sum(cost[t, k] for t, k in enumerate(labels)) + penalty * changes
+        best = min(best, (total, labels), key=lambda candidate: candidate[0])
+    return best
+
+
+def cheapest_partition(values, penalty, longest):
+    """The least Σ squared distance of pieces to their means + penalty · pieces, over every partition."""
+    steps = len(values)
+    best = np.inf
+    for code in range(2 ** (steps - 1)):
+        bounds = [0, *(t + 1 for t in range(steps - 1) if code >> t & 1), steps]
+        pieces = [values[a:b] for a, b in pairwise(bounds)]
+        if max(map(len, pieces)) <= longest:
+            best = min(best, sum(((p - p.mean(axis=0)) ** 2).sum() + penalty for p in pieces))
+    return best
+
+
+def ward(means, weights):
+    """Ward's merges by looking at every pair each time: (first, second) in order."""
+    groups = {i: (np.array(m, float), float(w)) for i, (m, w) in enumerate(zip(means, weights, strict=True))}
+    merges = []
+    while len(groups) > 1:
+        pairs = [(i, j) for i in groups for j in groups if i < j]
+        price = {
+            (i, j): ((groups[i][0] - groups[j][0]) ** 2).sum() * groups[i][1] * groups[j][1]
+            / (groups[i][1] + groups[j][1])
+            for i, j in pairs
+        }  # fmt: skip
+        i, j = min(pairs, key=price.get)
+        (mean_i, weight_i), (mean_j, weight_j) = groups[i], groups.pop(j)
+        groups[i] = ((mean_i * weight_i + mean_j * weight_j) / (weight_i + weight_j), weight_i + weight_j)
+        merges.append((i, j))
+    return merges

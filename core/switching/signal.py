@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Int
-from threadpoolctl import threadpool_limits
 
 from core.analysis import Features
 from core.windows import window_statistics
@@ -17,9 +16,15 @@ KEPT = 0.995
 
 @dataclass(frozen=True)
 class Signal:
-    """`values` (steps, D) at unit mean square, and `stride`: how many frames of the take a step stands for."""
+    """`values` (steps, D) at unit mean square, and `stride`: how many frames of the take a step stands for.
+
+    `size` and `tempo` (steps, D): where a step would go if its motion were performed twice as large, or twice as
+    fast. Repetitions of one motion differ along these, and are one motion all the same.
+    """
 
     values: Float[np.ndarray, "steps D"]
+    size: Float[np.ndarray, "steps D"]
+    tempo: Float[np.ndarray, "steps D"]
     stride: int
     frames: int
     seconds_per_step: float
@@ -41,30 +46,37 @@ def windowed_signal(features: tuple[Features, ...], frames: int, frame_rate: flo
     stride = max(round(frame_rate / STEPS_PER_SECOND), 1)
     at = np.minimum(np.arange(0, frames, stride) + stride // 2, frames - 1)
     half = max(round(WINDOW_SECONDS * frame_rate / 2), 1)
-    parts = [
-        part
-        for feature in features
-        for statistic in window_statistics(feature.values, half, frame_rate, at)
-        if (part := at_unit_mean_square(statistic)) is not None
-    ]
-    if not parts:
+    values, size, tempo = [], [], []
+    for feature in features:
+        for number, statistic in enumerate(window_statistics(feature.values, half, frame_rate, at)):
+            if spread := _root_mean_square(statistic - statistic.mean(axis=0)):
+                values.append((statistic - statistic.mean(axis=0)) / spread)
+                size.append(statistic / spread * (number > 0))  # deviation and speed grow with the motion, …
+                tempo.append(statistic / spread * (number > 1))  # … and speed with its speed
+    if not values:
         return None
-    together = at_unit_mean_square(np.concatenate(parts, axis=1))
-    return None if together is None else Signal(_leading(together), stride, frames, stride / frame_rate)
+    together = np.concatenate(values, axis=1)
+    scale = _root_mean_square(together)
+    directions = _leading(together) / scale
+    return Signal(
+        together @ directions,
+        np.concatenate(size, axis=1) @ directions,
+        np.concatenate(tempo, axis=1) @ directions,
+        stride,
+        frames,
+        stride / frame_rate,
+    )
 
 
-def at_unit_mean_square(values: Float[np.ndarray, "rows D"]) -> Float[np.ndarray, "rows D"] | None:
-    """Centred, and scaled so that the mean squared length of a row is 1; None where all rows are the same."""
-    centred = values - values.mean(axis=0, dtype=np.float64)
-    square = float(np.einsum("rd,rd->", centred, centred)) / max(len(values), 1)
-    return centred / np.sqrt(square) if square > 0 else None
+def _root_mean_square(values: Float[np.ndarray, "rows D"]) -> float:
+    """The RMS length of a row."""
+    return float(np.sqrt(np.einsum("rd,rd->", values, values) / len(values)))
 
 
-def _leading(values: Float[np.ndarray, "steps D"]) -> Float[np.ndarray, "steps d"]:
-    """The same rows in as few directions as hold `KEPT` of their energy: distances stay, D shrinks threefold."""
-    with threadpool_limits(1):
-        energy, directions = np.linalg.eigh(values.T @ values)
-        share = np.cumsum(energy[::-1]) / energy.sum()
-        kept = directions[:, ::-1][:, : int(np.searchsorted(share, KEPT)) + 1]
-        largest = np.abs(kept).argmax(axis=0)
-        return np.ascontiguousarray(values @ (kept * np.sign(kept[largest, np.arange(kept.shape[1])])))
+def _leading(values: Float[np.ndarray, "steps D"]) -> Float[np.ndarray, "D d"]:
+    """As few orthonormal directions as hold `KEPT` of the energy: distances stay, and D shrinks threefold."""
+    energy, directions = np.linalg.eigh(values.T @ values)
+    share = np.cumsum(energy[::-1]) / energy.sum()
+    kept = directions[:, ::-1][:, : int(np.searchsorted(share, KEPT)) + 1]
+    largest = np.abs(kept).argmax(axis=0)
+    return np.asarray(kept * np.sign(kept[largest, np.arange(kept.shape[1])]))
