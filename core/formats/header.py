@@ -11,6 +11,7 @@ from core.formats.archive import Archive
 from core.formats.frame_rate import ASSUMED, frame_count
 from core.formats.gltf.container import CHUNK, HEADER, glb_length, json_chunk_length, parse_root
 from core.formats.gltf.document import check_extensions
+from core.formats.gltf.key_times import KeyTimes
 from core.formats.gltf.summary import Clip, clips, size_of_scene
 from core.formats.notices import Notices
 from core.formats.sequence_members import check_shapes, members_by_use
@@ -26,7 +27,7 @@ MOST_FRAMES = 2**53
 
 @dataclass(frozen=True)
 class HeaderTake:
-    """One take: an estimate, for the rate of its keys is told by their number alone."""
+    """One take. Its rate is told by its keys, or where they cannot be read by their number: an estimate."""
 
     index: int
     name: str
@@ -67,7 +68,7 @@ def _gltf_header(file: BinaryIO, kind: Format, name: str, limits: Limits) -> Hea
     file.seek(start)
     root = parse_root(file.read(length), limits)
     check_extensions(root)
-    found = clips(root)
+    found = clips(root, KeyTimes(file, start + length, root.value) if kind == "glb" else lambda _: ())
     limits.check("max_takes", len(found))
     vertices, triangles = size_of_scene(root)
     return Header(kind, name, tuple(_take(place, clip) for place, clip in enumerate(found)), vertices, triangles)

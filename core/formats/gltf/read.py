@@ -12,15 +12,13 @@ from core.formats.gltf.accessors import Accessors
 from core.formats.gltf.channels import Channel
 from core.formats.gltf.document import Document
 from core.formats.gltf.figure import Figure, joints_figure, read_figure, still_weights
+from core.formats.gltf.key_times import MOST_KEYS
 from core.formats.gltf.nodes import NodeGraph, read_nodes, scene_nodes
 from core.formats.gltf.posing import PosedVertices, read_skeleton, rest_pose
 from core.formats.gltf.sampling import Slots, Tracks, read_tracks
 from core.formats.gltf.take import choose_animation
 from core.limits import Limits
 from core.parameters import Parameters
-
-KEYS_ASKED = 10_000
-"""Keys that are asked for the rate of a take: a long one has no more to tell."""
 
 
 def read_gltf(data: memoryview, parts: Mapping[str, memoryview], parameters: Parameters, limits: Limits) -> Animation:
@@ -80,7 +78,7 @@ def _with_weights(
 def _rate(document: Document, parameters: Parameters, tracks: Tracks) -> float:
     if parameters.fps != "source":
         return float(parameters.fps)
-    rate = key_rate(tracks.densest[:KEYS_ASKED].tolist())
+    rate = key_rate(tracks.densest[:MOST_KEYS].tolist())
     if rate is None:
         document.notices.add("frame-rate-assumed", f"The keys tell no frame rate; {ASSUMED:g} a second was taken.")
     return rate or ASSUMED

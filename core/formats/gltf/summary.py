@@ -1,15 +1,15 @@
-"""What the JSON of a glTF says without its data: takes, and how large the scene is. Light: no NumPy.
+"""What the JSON of a glTF says with hardly any data: takes, and how large the scene is. Light: no NumPy.
 
 Numbers are taken where they are plain and left out where they are not; what is wrong with them is the reader's to say.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from core.formats.frame_rate import snapped
-from core.formats.gltf.entry import Entry
+from core.formats.frame_rate import key_rate, snapped
+from core.formats.gltf.entry import FLOAT32_MAX, Entry
 from core.formats.takes import take_name
 
 TRIANGLES, FAN = 4, 6
@@ -24,17 +24,18 @@ class Clip:
     rate: float | None
 
 
-def clips(root: Entry) -> list[Clip]:
-    """All animations, by the bounds and counts of their samplers' inputs."""
+def clips(root: Entry, times: Callable[[Any], Sequence[float]]) -> list[Clip]:
+    """All animations; `times` tells the keys of an accessor, or nothing, and its bounds and count are believed."""
     accessors = _list(root.value, "accessors")
     found = []
     for place, animation in enumerate(_list(root.value, "animations")):
-        inputs = [_keys(accessors, sampler) for sampler in _used_samplers(animation)]
-        seconds = max((last for _, _, last in inputs), default=0.0)
-        keys, first, last = max(inputs, default=(0, 0.0, 0.0))
-        rate = snapped((keys - 1) / (last - first)) if keys > 1 and last > first else None
+        inputs = [accessors[number] for number in _inputs(accessors, animation)]
+        densest = max(inputs, key=_count, default=None)
+        keys = times(densest)
+        seconds = max([*(_bound(accessor, "max") for accessor in inputs), *keys[-1:]], default=0.0)
+        rate = key_rate(keys) if keys else _even_rate(densest)
         name = take_name(animation.get("name") if isinstance(animation, dict) else None, place)
-        found.append(Clip(name, seconds, rate))
+        found.append(Clip(name, seconds if seconds <= FLOAT32_MAX else 0.0, rate))
     return found
 
 
@@ -61,18 +62,18 @@ def _size_of_mesh(accessors: list[Any], mesh: Any) -> tuple[int, int]:
     return vertices, triangles
 
 
-def _used_samplers(animation: Any) -> Iterator[Any]:
+def _inputs(accessors: list[Any], animation: Any) -> list[int]:
+    """The accessors that hold the key times of an animation's channels."""
     samplers = _list(animation, "samplers")
-    places = [_place(channel, "sampler", len(samplers)) for channel in _list(animation, "channels")]
-    return (samplers[place] for place in dict.fromkeys(places) if place is not None)
+    used = dict.fromkeys(_place(channel, "sampler", len(samplers)) for channel in _list(animation, "channels"))
+    inputs = (_place(samplers[place], "input", len(accessors)) for place in used if place is not None)
+    return [place for place in dict.fromkeys(inputs) if place is not None]
 
 
-def _keys(accessors: list[Any], sampler: Any) -> tuple[int, float, float]:
-    """How many keys there are, the first and the last second."""
-    place = _place(sampler, "input", len(accessors))
-    if place is None:
-        return 0, 0.0, 0.0
-    return _count(accessors[place]), _bound(accessors[place], "min"), _bound(accessors[place], "max")
+def _even_rate(accessor: Any) -> float | None:
+    """The rate of keys that are as many between their bounds as if one were on every frame."""
+    keys, span = _count(accessor), _bound(accessor, "max") - _bound(accessor, "min")
+    return snapped((keys - 1) / span) if keys > 1 and span > 0 else None
 
 
 def _bound(accessor: Any, name: str) -> float:

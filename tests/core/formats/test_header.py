@@ -11,6 +11,7 @@ import pytest
 from core.errors import BrokenContainer, InvalidModel, LimitExceeded, UnsupportedMedia
 from core.formats.header import MOST_JSON, Header, HeaderTake, read_header
 from core.limits import Limits
+from tests.glb import square
 
 TWO_TAKES = b"""{"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}, {"mesh": 0}],
  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
@@ -47,6 +48,18 @@ def test_an_archive_tells_its_frames_at_its_own_rate() -> None:
     """Shapes come from the arrays' headers, the rate from its one number."""
     data = archive(verts=np.zeros((11, 4, 3), ">f8"), faces=np.zeros((2, 3), np.uint8), fps=np.float16(25))
     assert header(data) == Header("npz", "model", (HeaderTake(0, "vertices", 0.4, 11, 25.0),), 4, 2)
+
+
+def test_the_rate_is_told_by_the_keys_themselves_where_they_are_at_hand() -> None:
+    """Thinned keys of a GLB, whose number alone would tell another rate; what is broken in them tells nothing."""
+    model = square()
+    frames = np.array([0, 1, 2, 3, 4, 15, 23, 24])
+    model.animate(0, "scale", frames / 24, np.ones((8, 3)))
+    (take,) = header(model.glb()).takes
+    assert (take.frames, take.frame_rate, take.duration_seconds) == (25, 24.0, 1.0)
+    for broken in (np.nan, np.inf, -1, 3e38):
+        struct.pack_into("<f", model.binary, model.json["bufferViews"][2]["byteOffset"] + 28, broken)
+        assert header(model.glb()).takes[0].duration_seconds in (0, pytest.approx(3e38))
 
 
 def test_much_json_is_not_parsed() -> None:

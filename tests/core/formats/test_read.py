@@ -30,7 +30,7 @@ def test_files_may_be_mapped(tmp_path: Path) -> None:
 def test_the_takes_of_an_upload_are_told_before_it_is_read() -> None:
     """Of a glTF its animations, of a sequence the sequence."""
     (take,) = takes({"x": moving_square().glb()}, Limits())
-    assert (take.index, take.name, take.frames, take.frame_rate) == (0, "take 0", 1, 30.0)
+    assert (take.index, take.name, take.frames, take.frame_rate) == (0, "take 0", 31, 30.0)
     (take,) = takes({"x": npz(frame_rate=25)}, Limits())
     assert (take.frames, take.frame_rate) == (len(FRAMES), 25)
 
