@@ -1,4 +1,4 @@
-// A skeleton without a mesh: a slim octahedron from every joint to each of its children.
+// A skeleton without a mesh, as animators draw it: a slim octahedron from every joint to each of its children.
 
 import { BufferAttribute, InstancedMesh, Matrix4, MeshLambertMaterial, OctahedronGeometry, Quaternion, Vector3 } from 'three';
 
@@ -9,7 +9,7 @@ export function bones(root) {
   const joints = [];
   root.traverse((node) => { if (node.userData.joint) joints.push(node); });
   const pairs = joints.filter((joint) => joint.parent.userData.joint).map((joint) => [joint.parent, joint]);
-  const geometry = new OctahedronGeometry(0.5).toNonIndexed();
+  const geometry = new OctahedronGeometry(0.5);
   geometry.translate(0, 0.5, 0);
   geometry.computeVertexNormals();
   geometry.setAttribute('_patch', new BufferAttribute(new Float32Array(geometry.getAttribute('position').count), 1));

@@ -127,3 +127,32 @@ def test_a_plain_copy_holds_nothing_that_is_not_played() -> None:
     assert not any("name" in node for node in document["nodes"])
     assert all("_PATCH" in p["attributes"] for mesh in document["meshes"] for p in mesh["primitives"])
     assert unpacked(strain)[0]["patches"] > 0
+
+
+def without_meshes(data: bytes) -> bytes:
+    """The same GLB with nothing but its skeleton and its animations."""
+    length = int.from_bytes(data[12:16], "little")
+    document = json.loads(data[20 : 20 + length])
+    for name in ("meshes", "skins"):
+        document.pop(name, None)
+    for node in document["nodes"]:
+        node.pop("mesh", None)
+        node.pop("skin", None)
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    rest = data[20 + length :]
+    head = b"glTF" + (2).to_bytes(4, "little") + (20 + len(text) + len(rest)).to_bytes(4, "little")
+    return head + len(text).to_bytes(4, "little") + b"JSON" + text + rest
+
+
+def test_a_skeleton_without_a_mesh_is_shown_by_its_joints() -> None:
+    """The joints that are taken are marked, for the page to draw bones between; nothing is strained."""
+    data = without_meshes(figure("smooth").glb)
+    parts = {"model": data}
+    animation = read_animation(parts, Parameters(), Limits(), scratch)
+    shown = playback(animation, parts, analyse(animation))
+    assert shown.document["skeleton"]
+    assert shown.strain is None
+    copy = b"".join(shown.model)
+    document = json.loads(copy[20 : 20 + int.from_bytes(copy[12:16], "little")])
+    assert sum("extras" in node for node in document["nodes"]) == animation.vertex_count
