@@ -61,17 +61,20 @@ def browser(chromium: Path, node: Path) -> Iterator[Browser]:
         launched.close()
 
 
-@pytest.fixture
-def page(browser: Browser, address: str) -> Iterator[Page]:
+def tab(browser: Browser, address: str) -> Iterator[Page]:
     """A tab of its own. An error that the page itself makes fails the test."""
     context = browser.new_context(viewport={"width": 1100, "height": 720}, base_url=address)
-    tab = context.new_page()
-    tab.set_default_timeout(PATIENCE_MS)
+    page = context.new_page()
+    page.set_default_timeout(PATIENCE_MS)
     errors: list[str] = []
-    tab.on("pageerror", lambda error: errors.append(str(error)))
-    yield tab
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    yield page
     context.close()
     assert not errors
+
+
+page = pytest.fixture(tab)
+kept_page = pytest.fixture(tab, scope="module", name="kept_page")
 
 
 @pytest.fixture(scope="session")

@@ -1,0 +1,99 @@
+"""The page's own arithmetic, run by Node."""
+
+import json
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+
+@pytest.fixture
+def answer(node: Path, checkout: Path):
+    """Run a script that may import the page's modules; answers the JSON it prints."""
+    viewer = checkout / "service" / "static" / "viewer"
+
+    def run(script: str) -> Any:
+        done = subprocess.run(
+            [node, "--input-type=module", "--disable-warning=MODULE_TYPELESS_PACKAGE_JSON"],
+            input=script.replace("VIEWER", viewer.as_uri()),
+            text=True,
+            capture_output=True,
+            check=True,
+        )
+        return json.loads(done.stdout)
+
+    return run
+
+
+def test_a_thinned_curve_keeps_its_peaks_and_its_order(answer) -> None:
+    """Of 72,000 frames on 500 columns, a peak of one frame is still there, and a gap stays a gap."""
+    frames, values = answer("""
+        import { thinned } from 'VIEWER/thinning.js';
+        const values = Array.from({ length: 72000 }, (_, i) => i < 2000 ? null : i === 41234 ? 9 : Math.sin(i / 50));
+        console.log(JSON.stringify(thinned(values, 0, 72000, 500)));
+    """)
+    assert len(frames) <= 1000
+    assert frames == sorted(frames)
+    assert frames[values.index(9)] == 41234
+    assert values[0] is None
+
+
+def test_a_short_curve_is_drawn_as_it_is(answer) -> None:
+    """Where every frame has a column, nothing is left out."""
+    frames, values = answer("""
+        import { thinned } from 'VIEWER/thinning.js';
+        console.log(JSON.stringify(thinned([1, 2, 3, 4, 5], 0, 5, 500)));
+    """)
+    assert frames == [0, 1, 2, 3, 4]
+    assert values == [1, 2, 3, 4, 5]
+
+
+def test_zooming_keeps_the_frame_under_the_pointer_and_the_take_in_view(answer) -> None:
+    """In and out again is where one began; nothing outside the take is ever shown."""
+    steps = answer("""
+        import { Span } from 'VIEWER/span.js';
+        const span = new Span(1000);
+        const seen = [];
+        const note = () => seen.push([span.from, span.to]);
+        span.zoom(4, 300); note();
+        span.pan(-5000); note();
+        span.zoom(0.001, 10); note();
+        span.reveal(999); note();
+        console.log(JSON.stringify(seen));
+    """)
+    (start, stop), panned, out, revealed = steps
+    assert stop - start == 250
+    assert (300 - start) / 250 == pytest.approx(0.3)
+    assert panned == [0, 250]
+    assert out == revealed == [0, 1000]
+
+
+def test_playing_ends_with_the_take_and_waits_for_what_is_not_there(answer) -> None:
+    """The clock never leaves the take, waits for what is not loaded, and repeats a segment that is looped."""
+    seen = answer("""
+        import { Clock } from 'VIEWER/clock.js';
+        let now = 0;
+        const waiting = [];
+        globalThis.requestAnimationFrame = (action) => waiting.push(action);
+        const step = () => waiting.splice(0).forEach((action) => action(now += 50));
+        const clock = new Clock(100, 30);
+        clock.seek(95);
+        clock.toggle();
+        for (let i = 0; i < 9; i++) step();
+        const end = [clock.frame, clock.playing];
+        clock.loop = [10, 20];
+        clock.seek(12);
+        clock.toggle();
+        const frames = [];
+        for (let i = 0; i < 40; i++) { step(); frames.push(clock.frame); }
+        let loaded = false;
+        const late = new Clock(100, 30, () => loaded);
+        late.toggle();
+        for (let i = 0; i < 5; i++) step();
+        const held = late.frame;
+        loaded = true;
+        for (let i = 0; i < 5; i++) step();
+        console.log(JSON.stringify([end, [Math.min(...frames), Math.max(...frames)], held, late.frame > 0]));
+    """)
+    assert seen == [[99, False], [10, 19], 0, True]
