@@ -14,7 +14,8 @@ from core.formats.gltf.document import Document
 from core.formats.gltf.figure import Figure, joints_figure, read_figure, still_weights
 from core.formats.gltf.key_times import MOST_KEYS
 from core.formats.gltf.nodes import NodeGraph, read_nodes, scene_nodes
-from core.formats.gltf.posing import PosedVertices, read_skeleton, rest_pose
+from core.formats.gltf.posing.skeleton import read_skeleton
+from core.formats.gltf.posing.vertices import PosedVertices, rest_pose
 from core.formats.gltf.sampling import Slots, Tracks, read_tracks
 from core.formats.gltf.take import choose_animation
 from core.limits import Limits

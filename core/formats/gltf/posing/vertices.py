@@ -3,12 +3,12 @@
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Float
 
 from core.errors import InvalidModel
 from core.formats.gltf.figure import Figure
-from core.formats.gltf.kernels import palette, skin, skin_morphed, worlds
-from core.formats.gltf.nodes import NodeGraph
+from core.formats.gltf.posing.kernels import skin, skin_morphed
+from core.formats.gltf.posing.skeleton import Skeleton
 from core.formats.gltf.sampling import Slots, Tracks
 
 MOST_FRAMES = 32
@@ -16,40 +16,6 @@ MOST_FRAMES = 32
 
 SCRATCH_BYTES = 16 * 2**20
 """Matrices and poses that one call holds at a time: however many frames are asked for, and however many nodes."""
-
-
-@dataclass(frozen=True)
-class Skeleton:
-    """The nodes that move a figure, each after its parent (-1 at a root), and the bones hung on them."""
-
-    parent: Int[np.ndarray, "N"]
-    matrix: Float[np.ndarray, "N 12"]
-    has_matrix: np.ndarray
-    bone_node: Int[np.ndarray, "B"]
-    bone_bind: Float[np.ndarray, "B 12"]
-
-    def palette(self, poses: Float[np.ndarray, "block numbers"]) -> Float[np.ndarray, "B 12 block"]:
-        """What each bone does to a vertex bound to it: world · bind, row by row 3 x 4, the frames innermost."""
-        world = np.empty((len(poses), len(self.parent), 12))
-        worlds(poses, self.parent, self.matrix, self.has_matrix, world)
-        matrices = np.empty((len(self.bone_node), 12, len(poses)))
-        palette(world, self.bone_node, self.bone_bind, matrices)
-        return matrices
-
-
-def read_skeleton(graph: NodeGraph, figure: Figure) -> tuple[Skeleton, Float[np.ndarray, "numbers"], Slots]:
-    """The nodes that move `figure`, their own poses in one row, and where each node's ten numbers begin."""
-    nodes = graph.with_ancestors(figure.bone_node)
-    place = np.full(len(graph.parent) + 1, -1)  # the last stands for the parent of a root, -1
-    place[nodes] = np.arange(len(nodes))
-    skeleton = Skeleton(
-        parent=place[graph.parent[nodes]],
-        matrix=graph.matrix[nodes],
-        has_matrix=graph.has_matrix[nodes],
-        bone_node=place[figure.bone_node],
-        bone_bind=figure.bone_bind,
-    )
-    return skeleton, graph.pose[nodes].reshape(-1), {node: 10 * number for number, node in enumerate(nodes.tolist())}
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,1 @@
+"""From poses to vertices: the skeleton that moves a figure, and the figure moved by it."""
