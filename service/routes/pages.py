@@ -1,10 +1,12 @@
 """The page: static files, a client of the API like any other."""
 
 from pathlib import Path
+from typing import Any
 
 from anyio import Path as AsyncPath
 from fastapi import APIRouter, FastAPI, Response
 from fastapi.responses import HTMLResponse
+from starlette.responses import Response as AnyResponse
 from starlette.staticfiles import StaticFiles
 
 from service.errors import Refusal
@@ -26,6 +28,16 @@ async def page() -> Response:
     return HTMLResponse(html, headers={"Content-Security-Policy": page_policy(html), "Cache-Control": "no-cache"})
 
 
+class PageFiles(StaticFiles):
+    """Files that a browser asks for anew each time (304 where they are the same): after an upgrade none is old."""
+
+    def file_response(self, *args: Any, **kwargs: Any) -> AnyResponse:
+        """The file, or that it has not changed."""
+        response = super().file_response(*args, **kwargs)
+        response.headers["Cache-Control"] = "no-cache"
+        return response
+
+
 def mount(app: FastAPI) -> None:
     """Serve the page's own files, with ETag and Last-Modified."""
-    app.mount("/static", StaticFiles(directory=STATIC, check_dir=False), name="static")
+    app.mount("/static", PageFiles(directory=STATIC, check_dir=False), name="static")

@@ -39,6 +39,7 @@ def test_only_inline_scripts_are_digested():
 def test_the_pages_files_are_served_and_kept(idle):
     """With a tag, so that a browser asks before it loads them again."""
     answer = idle.http.get("/static/icon.svg")
+    assert answer.headers["Cache-Control"] == "no-cache"
     assert answer.status_code == 200
     again = idle.http.get("/static/icon.svg", headers={"If-None-Match": answer.headers["ETag"]})
     assert again.status_code == 304
