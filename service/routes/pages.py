@@ -6,7 +6,6 @@ from typing import Any
 from anyio import Path as AsyncPath
 from fastapi import APIRouter, FastAPI, Response
 from fastapi.responses import HTMLResponse
-from starlette.responses import Response as AnyResponse
 from starlette.staticfiles import StaticFiles
 
 from service.errors import Refusal
@@ -31,7 +30,7 @@ async def page() -> Response:
 class PageFiles(StaticFiles):
     """Files that a browser asks for anew each time (304 where they are the same): after an upgrade none is old."""
 
-    def file_response(self, *args: Any, **kwargs: Any) -> AnyResponse:
+    def file_response(self, *args: Any, **kwargs: Any) -> Response:
         """The file, or that it has not changed."""
         response = super().file_response(*args, **kwargs)
         response.headers["Cache-Control"] = "no-cache"
