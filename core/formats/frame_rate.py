@@ -16,6 +16,9 @@ NEAR = 0.015
 WHOLE = 0.05
 """Frames by which a key may miss its frame, for the same reasons."""
 
+FLOAT32_STEP = 2.0**-23
+"""The distance of neighbouring float32 numbers, as a share of the smaller; a key is off by half of it at most."""
+
 
 def snapped(rate: float) -> float | None:
     """The known rate that is nearest to `rate`, if it is within 1.5 % of it."""
@@ -60,10 +63,11 @@ def _alike(rate: float, other: float) -> bool:
 
 
 def frame_count(duration: float, rate: float) -> float:
-    """Frames of a clip of `duration` seconds, its first at 0: floor(duration · rate + 1e-4) + 1.
+    """Frames of a clip of `duration` seconds, its first at 0: floor(duration · rate + ε) + 1.
 
-    Keys are float32, so 3.33333325 s · 30 = 99.9999976 must still be 101 frames. A float that may be infinite:
-    compare it with a limit before making an integer of it.
+    Keys are float32, so 3.33333325 s · 30 = 99.9999976 must still be 101 frames: ε is 1e-4 of a frame, and in long
+    takes the step of float32 at their end, 2^-23 of them. A float that may be infinite: compare it with a limit before
+    making an integer of it.
     """
-    frames = duration * rate + 1e-4
-    return frames // 1 + 1
+    frames = duration * rate
+    return (frames + max(1e-4, frames * FLOAT32_STEP)) // 1 + 1

@@ -36,3 +36,11 @@ def test_the_last_frame_is_not_lost_to_float32() -> None:
     assert frame_count(3.33333325, 30) == 101
     assert frame_count(0, 30) == 1
     assert frame_count(1e300, 1e6) > 1e300
+
+
+@pytest.mark.parametrize("rate", KNOWN)
+def test_no_take_of_hours_loses_its_last_frame(rate: float) -> None:
+    """The last key of a long take, in float32, is up to milliseconds off its frame; the next frame is not reached."""
+    for frames in (1, 63, 6_400, 72_000, 100_003, 432_001, 1_000_000):
+        last = float(np.float32((frames - 1) / rate))
+        assert frame_count(last, rate) == frames
