@@ -9,6 +9,7 @@ from core.keyframes import key_frames
 from core.parameters import Auto, Parameters
 from core.refinement import refined
 from core.segmentation import Cut
+from core.switching.blur import without_blur
 from core.switching.certainty import certainty
 from core.switching.choice import choose
 from core.switching.settling import Settled, settle
@@ -31,6 +32,7 @@ def switching(analysis: Analysis, parameters: Parameters) -> Cut:
             return Cut(np.zeros(analysis.frames, np.int64), keys, np.zeros(0), notices=notices)
         penalty = CHANGE_SECONDS / signal.seconds_per_step
         settled, scores = _motions(signal, penalty, parameters)
+        settled = without_blur(signal, settled)
         labels = refined(signal.per_frame(settled.labels), features, analysis.frame_rate)
     return Cut(labels, keys, certainty(signal, settled, penalty), scores, _fewer(parameters.motions, settled.motions))
 
