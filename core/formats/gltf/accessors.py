@@ -1,5 +1,6 @@
 """Arrays out of accessors: every bound is checked in Python's integers, which do not wrap, before NumPy sees it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 
@@ -16,7 +17,10 @@ WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "M
 
 @dataclass(frozen=True)
 class Layout:
-    """What an accessor says it is: `count` elements of `width` components. Where it lies is checked too."""
+    """What an accessor says it is: `count` elements of `width` components. Where it lies is checked too.
+
+    With `unpack` its elements come out of compressed geometry and not out of a view of its own.
+    """
 
     entry: Entry
     index: int
@@ -25,6 +29,7 @@ class Layout:
     width: int
     dtype: np.dtype[np.generic]
     normalized: bool
+    unpack: "Callable[[Layout], Shaped[np.ndarray, 'count width']] | None" = None
 
 
 class Accessors:
@@ -64,6 +69,9 @@ class Accessors:
         """Elements as stored; a view of the file where that is possible."""
         entry = layout.entry
         size = layout.count * layout.width * layout.dtype.itemsize
+        if layout.unpack is not None:
+            self._document.budget.spend(size)
+            return layout.unpack(layout)
         if "bufferView" in entry:
             values = self._strided(layout, *self._place(entry, layout.count, layout.dtype, layout.width, vertex_data))
             self._document.budget.spend(size)
@@ -83,8 +91,12 @@ class Accessors:
 
     def check(self, layout: Layout, *, vertex_data: bool) -> None:
         """Raise where the accessor does not lie within its view; nothing is decoded."""
-        if "bufferView" in layout.entry:
+        if "bufferView" in layout.entry and layout.unpack is None:
             self._place(layout.entry, layout.count, layout.dtype, layout.width, vertex_data)
+
+    def view(self, number: int) -> memoryview:
+        """The bytes of a buffer view that is no list of elements."""
+        return self._buffers.view(number)
 
     def _layout(self, index: int) -> Layout:
         entry = self._document.accessors[index]

@@ -13,9 +13,15 @@ from core.limits import Limits
 HARMLESS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_", "KHR_lights_", "EXT_lights_", "KHR_xmp")
 """Beginnings of the names of extensions that change no vertex: images and materials are never read."""
 
-READ = {"KHR_mesh_quantization", "KHR_animation_pointer", "KHR_node_visibility", "KHR_materials_variants"}
+READ = {
+    "KHR_animation_pointer",
+    "KHR_draco_mesh_compression",
+    "KHR_materials_variants",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+}
 
-COMPRESSED = {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}
+COMPRESSED = {"EXT_meshopt_compression", "KHR_meshopt_compression"}
 
 DECOMPRESS = "Decompress it first: gltf-transform copy in.glb out.glb"
 

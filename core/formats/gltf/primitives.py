@@ -6,7 +6,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from core.formats.gltf.accessors import Accessors, Layout
-from core.formats.gltf.document import Document, unsupported
+from core.formats.gltf.document import Document
+from core.formats.gltf.draco import unpacked
 from core.formats.gltf.entry import Entry
 from core.formats.gltf.influences import Influences, read_influences
 
@@ -77,19 +78,20 @@ def _outline(document: Document, accessors: Accessors, primitive: Entry) -> Outl
             "primitive-skipped", f"{primitive.pointer} has no triangles (points, lines or no positions)."
         )
         return None
-    draco = primitive.extension("KHR_draco_mesh_compression")
     layouts = {name: accessors.layout(attributes.index(name, len(accessors), "accessors")) for name in attributes.value}
     position = layouts["POSITION"]
-    if draco is not None and "bufferView" not in position.entry:
-        raise unsupported("KHR_draco_mesh_compression", draco.pointer)
+    indices = None
+    if "indices" in primitive:
+        indices = accessors.layout(primitive.index("indices", len(accessors), "accessors"))
+    draco = primitive.extension("KHR_draco_mesh_compression")
+    if draco is not None:
+        layouts, indices = unpacked(document, accessors, primitive, draco, layouts, indices)
     for name, layout in layouts.items():
         if layout.count != position.count:
             raise attributes.refusal(f"{name} has {layout.count} elements, POSITION {position.count}.", name=name)
         accessors.check(layout, vertex_data=True)
     _check_position(document, position)
-    indices = None
-    if "indices" in primitive:
-        indices = accessors.layout(primitive.index("indices", len(accessors), "accessors"))
+    if indices is not None:
         accessors.check(indices, vertex_data=False)
     outline = Outline(primitive, mode, layouts, indices, _targets(document, accessors, primitive, position))
     if not outline.vertices or not outline.triangles:

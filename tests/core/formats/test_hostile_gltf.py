@@ -106,11 +106,6 @@ def _short_target(model: Glb) -> None:
     _primitive(targets=[{"POSITION": model.accessor(np.zeros((3, 3)))}])(model)
 
 
-def _draco(model: Glb) -> None:
-    _primitive(extensions={"KHR_draco_mesh_compression": {}})(model)
-    del model.json["accessors"][POSITIONS]["bufferView"]
-
-
 def _meshopt(model: Glb) -> None:
     compressed: dict[str, Any] = {"extensions": {"EXT_meshopt_compression": {}}}
     _view(0, buffer=1, **compressed)(model)
@@ -202,7 +197,6 @@ GEOMETRY: list[Row] = [
     ("NaN position", _data(POSITIONS, 4, np.nan), "non-finite-data", "/accessors/0"),
     ("infinite position", _data(POSITIONS, 0, np.inf), "non-finite-data", "/accessors/0"),
     ("target of other count", _short_target, "invalid-gltf", None),
-    ("Draco, not said to be required", _draco, "unsupported-extension", None),
     ("meshopt, not said to be required", _meshopt, "unsupported-extension", "/bufferViews/0"),
 ]
 

@@ -30,12 +30,11 @@ MODELS = [
     ("godotman.glb", 4, 1e-6),
     ("variants/Fox_plain.glb", 3, 1e-6),
     ("variants/Fox_separate.gltf", 3, 1e-6),
+    ("variants/Fox_draco.glb", 3, 1e-6),
     ("variants/Fox_sparse.glb", 3, 1e-6),
     ("variants/Fox_quantized.glb", 3, 5e-5),
 ]
 COMPRESSED = [
-    "Fox_draco.glb",
-    "DracoSparseMesh.gltf",
     "Fox_meshopt_medium.glb",
     "Fox_meshopt_high.glb",
     "BoxMeshopt.gltf",
