@@ -10,13 +10,11 @@ from core.descriptors.projection import Projection, sample_frames
 from core.drawing import draw_frames
 from core.progress import Progress, ignore
 
-NAMES = ("strain", "pair-distances")
-
 HELD_BYTES = 64 * 2**20
 """Memory for the whole descriptors of a take; where they do not fit, the sample is drawn beforehand."""
 
 Basis = tuple[Projection, Projection]
-"""The components of the patch means of strain, and of the pair distances."""
+"""The components of the patch means of the descriptor, and of the pair distances."""
 
 
 def basis(animation: Animation, body: Body, threads: int = 1, progress: Progress = ignore) -> Basis | None:
@@ -35,7 +33,10 @@ def basis(animation: Animation, body: Body, threads: int = 1, progress: Progress
 
 
 def features(
-    projections: Basis | None, described: tuple[np.ndarray, np.ndarray], changing: tuple[bool, bool]
+    projections: Basis | None,
+    described: tuple[np.ndarray, np.ndarray],
+    changing: tuple[bool, bool],
+    descriptor: str = "strain",
 ) -> tuple[Features, Features]:
     """Frames as `described`: already projected where there was a basis, else it is learnt here from the same sample.
 
@@ -45,8 +46,9 @@ def features(
         sample = sample_frames(len(described[0]))
         projections = (Projection.of(described[0][sample]), Projection.of(described[1][sample]))
         described = (projections[0].project(described[0]), projections[1].project(described[1]))
+    names = (descriptor, "pair-distances")
     strain, distances = (
         Features(name, values if changes else values[:, :0].copy(), projection.energy_share)
-        for name, projection, values, changes in zip(NAMES, projections, described, changing, strict=True)
+        for name, projection, values, changes in zip(names, projections, described, changing, strict=True)
     )
     return strain, distances

@@ -1,12 +1,11 @@
-"""What is measured of a body: strains, their means on patches, and pair distances; all chosen from the rest shape."""
+"""What is measured of a body: the descriptor, its means on patches, and pair distances; all of the rest shape."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
 
 import numpy as np
-from jaxtyping import Float32, Int
+from jaxtyping import Float32
 
+from core.animation import Animation
 from core.descriptors.pair_distances import PairDistances
 from core.descriptors.pair_strain import PairStrain
 from core.descriptors.patch_means import PatchMeans
@@ -15,28 +14,12 @@ from core.descriptors.strain import TriangleStrain
 from core.document import Notice
 from core.errors import InvalidModel
 from core.parameters import Parameters
-
-
-@runtime_checkable
-class Surface(Protocol):
-    """Strains of a body: of its triangles, or of its pairs of points where it has none that strain."""
-
-    @property
-    def columns(self) -> int:
-        """How many strains there are in a frame."""
-
-    def tiles(
-        self, block: Float32[np.ndarray, "frames V 3"]
-    ) -> Iterator[tuple[slice, Float32[np.ndarray, "n frames"]]]:
-        """Columns, and their strain in every frame; each array lives until the next."""
-
-    def noise(self, reach: float) -> Float32[np.ndarray, "columns"]:
-        """The strain that rounding alone gives each column where coordinates go up to `reach`."""
+from core.surfaces import SURFACES, Subject, Surface
 
 
 @dataclass(frozen=True)
 class Body:
-    """What is measured on every frame: strains, their means on patches, and pair distances."""
+    """What is measured on every frame: the descriptor, strain or another, its means on patches, and pair distances."""
 
     surface: Surface
     patches: PatchMeans
@@ -52,12 +35,13 @@ class Body:
 
     @classmethod
     def of(
-        cls, rest: Float32[np.ndarray, "V 3"], triangles: Int[np.ndarray, "T 3"], parameters: Parameters
+        cls, animation: Animation, rest: Float32[np.ndarray, "V 3"], parameters: Parameters
     ) -> "tuple[Body, tuple[Notice, ...]]":
-        """The strain of the triangles, or of pairs of points where there are none; and what must be said of it.
+        """The chosen descriptor of the triangles, or of pairs of points where there are none; and what must be said.
 
         Raises `InvalidModel` where there are triangles and none has area at rest.
         """
+        triangles = animation.triangles
         pairs = PairDistances.of(rest, triangles)
         if len(triangles) == 0:
             notice = Notice(
@@ -71,7 +55,10 @@ class Body:
         if strain.columns == 0:
             detail = "No triangle of the rest shape has area, so nothing can be strained. Send a mesh with a surface."
             raise InvalidModel("degenerate-mesh", detail)
-        return cls(strain, PatchMeans.of(patch[strain.triangles], strain.areas), pairs), _left_out(strain)
+        if parameters.descriptor == "pair-distances":
+            return cls(PairStrain.of(pairs), NO_PATCHES, pairs), _left_out(strain)
+        surface = SURFACES[parameters.descriptor](Subject(animation, rest, strain, parameters))
+        return cls(surface, PatchMeans.of(patch[strain.triangles], strain.areas), pairs), _left_out(strain)
 
     def by_pairs(self) -> "Body":
         """The same body, with the strain of its pairs of points in place of its triangles'."""

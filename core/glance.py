@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 from core.animation import Animation
-from core.body import Surface
 from core.descriptors.projection import sample_frames
 from core.drawing import draw_frames, largest_coordinate
+from core.surfaces import Surface
 
 FRAMES = 64
 AT_ONCE = 8

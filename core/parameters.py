@@ -39,9 +39,12 @@ class Parameters(BaseModel):
     rest: Literal["bind", "mean"] | int = _heavy(
         "bind", "rest shape: `bind` (bind pose or base mesh, else frame 0), `mean`, or a frame's number"
     )
-    descriptor: Literal["strain"] = _heavy("strain", "what is measured on each triangle (paper, section 3)")
+    descriptor: Literal["strain", "pair-distances", "curvature"] = _heavy(
+        "strain", "what is measured on each triangle (paper, section 3), or between pairs of points"
+    )
     strain: Literal["log", "biot", "max"] = _heavy("log", "measure of strain: Hencky (`log`), Biot, or largest")
-    scale_invariant: bool = _heavy(False, "take out a uniform scaling of the whole body before strain")
+    curvature: Literal["gaussian", "mean"] = _heavy("gaussian", "which curvature the descriptor `curvature` is")
+    scale_invariant: bool = _heavy(False, "take out a uniform scaling of the whole body before it is measured")
     normalize: Literal["p99.9", "max", "none"] | Annotated[float, Field(gt=0)] = _heavy(
         "p99.9", "strain that counts as 1: the 99.9th percentile, the largest, a number, or `none` (1)"
     )

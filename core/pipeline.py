@@ -43,7 +43,7 @@ def analyse(
     with threadpool_limits(1):
         progress("rest shape", 0.0)
         rest = rest_shape(animation, parameters.rest)
-        body, notices = Body.of(rest, animation.triangles, parameters)
+        body, notices = Body.of(animation, rest, parameters)
         take = survey(animation, body, threads=threads, progress=progress, memory_bytes=memory_bytes)
         if not take.strains and take.bends and len(animation.triangles):
             body = body.by_pairs()
@@ -63,9 +63,14 @@ def analyse(
             energy=energy,
             peaks=peaks,
             peak_strain=peak_strain(animation, body, peaks, scale, threads, progress),
-            features=features(take.surveyor.projections, take.described, (has_mesh and take.strains, take.bends)),
+            features=features(
+                take.surveyor.projections,
+                take.described,
+                (has_mesh and take.strains, take.bends),
+                parameters.descriptor if has_mesh else "strain",
+            ),
             strain_scale=scale,
-            notices=animation.notices + notices + _said(animation, take, length),
+            notices=animation.notices + notices + _said(animation, take, length, parameters.descriptor),
         )
 
 
@@ -109,14 +114,15 @@ def _source(animation: Animation) -> Source:
     return Source(take=take.index, name=take.name, fps=animation.frame_rate, start_seconds=animation.start_seconds)
 
 
-def _said(animation: Animation, take: Survey, length: int) -> tuple[Notice, ...]:
+def _said(animation: Animation, take: Survey, length: int, descriptor: str) -> tuple[Notice, ...]:
     """What must be said of a take that cannot be cut as usual."""
     said = []
     if not take.strains and not take.bends:
         detail = "The body moves as one rigid piece: nothing deforms, so the take is one segment."
         said.append(Notice(code="no-deformation", detail=detail))
-    elif len(animation.triangles) and take.surveyor.body.patches.patches == 0:
-        detail = "The triangles of this mesh do not strain, so the energy curve is of distances between its points."
+    elif len(animation.triangles) and take.surveyor.body.patches.patches == 0 and descriptor != "pair-distances":
+        what = "do not strain" if descriptor == "strain" else f"do not change by the descriptor {descriptor}"
+        detail = f"The triangles of this mesh {what}, so the energy curve is of distances between its points."
         said.append(Notice(code="no-strain", detail=detail))
     if animation.frames < 2 * length:
         detail = (
