@@ -25,7 +25,7 @@ class Buffers:
         if view.extension(*COMPRESSED) is not None and self._is_placeholder(view):
             raise unsupported("EXT_meshopt_compression", view.pointer)
         number = view.index("buffer", len(self._document.buffers), "buffers")
-        data = self._buffer(number)
+        data = self.buffer(number)
         start = view.whole("byteOffset", 0, code="out-of-bounds")
         length = view.whole("byteLength", code="out-of-bounds")
         if start + length > len(data):
@@ -37,7 +37,8 @@ class Buffers:
         buffer = self._document.buffers[view.index("buffer", len(self._document.buffers), "buffers")]
         return "uri" not in buffer and (buffer.extension(*COMPRESSED) is not None or not self._document.is_glb)
 
-    def _buffer(self, index: int) -> memoryview:
+    def buffer(self, index: int) -> memoryview:
+        """The bytes of one buffer, as long as it states; raises `external-resource` where they were not sent."""
         if index not in self._opened:
             self._opened[index] = self._open(index, self._document.buffers[index])
         return self._opened[index]
