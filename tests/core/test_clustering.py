@@ -1,11 +1,12 @@
 """Key-frames into motions."""
 
 import itertools
+from time import perf_counter
 
 import numpy as np
 import pytest
 
-from core.clustering import cluster, cluster_unasked, compact, distinct
+from core.clustering import SAMPLE, cluster, cluster_unasked, compact, distinct
 
 
 def clouds(centres, each=8, spread=0.05):
@@ -72,3 +73,20 @@ def test_points_in_fewer_dimensions_are_as_far_apart():
 def gaps(points):
     """All distances."""
     return np.linalg.norm(points[:, None] - points[None, :], axis=2)
+
+
+@pytest.mark.parametrize("each", [SAMPLE // 2, SAMPLE])
+def test_more_points_than_are_sampled_are_grouped_alike(each):
+    """Each of many points has the group of its cloud, with K given and unasked."""
+    points, truth = clouds([0, 1, 2.5], each=each)
+    assert len(points) > SAMPLE
+    assert same_grouping(cluster(points, 3, 0).labels, truth)
+    assert same_grouping(cluster_unasked(points, 0)[0].labels, truth)
+
+
+def test_an_hour_of_key_frames_takes_seconds():
+    """Two thousand of them, without structure, where K-means is slowest."""
+    points = np.random.default_rng(0).normal(size=(2000, 2000))
+    start = perf_counter()
+    cluster_unasked(points, 0)
+    assert perf_counter() - start < 20
