@@ -31,6 +31,11 @@ def hooked_modules() -> list[str]:
 install_import_hook(hooked_modules(), "beartype.beartype")
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """The browser comes last: Playwright keeps an event loop in this thread, in which nobody else's can run."""
+    items.sort(key=lambda item: (CHECKOUT / "tests" / "browser") in item.path.parents)
+
+
 def unavailable(what: str) -> NoReturn:
     """Skip the test that needs `what`, or fail it where `CI=true`."""
     if os.environ.get("CI") == "true":
