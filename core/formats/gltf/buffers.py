@@ -5,8 +5,9 @@ import binascii
 from urllib.parse import unquote
 
 from core.errors import InvalidModel
-from core.formats.gltf.document import COMPRESSED, Document, unsupported
+from core.formats.gltf.document import COMPRESSED, Document
 from core.formats.gltf.entry import Entry
+from core.formats.gltf.meshopt.view import decode, decoded_size
 
 
 class Buffers:
@@ -15,15 +16,26 @@ class Buffers:
     def __init__(self, document: Document) -> None:
         self._document = document
         self._opened: dict[int, memoryview] = {}
+        self._decoded: dict[int, memoryview] = {}
         for buffer in document.buffers:
             if "uri" in buffer and not _is_data(uri := buffer.text("uri")):
                 _check_name(uri, buffer)
 
     def view(self, index: int) -> memoryview:
-        """The bytes of one buffer view; raises `out-of-bounds` where its buffer is shorter."""
+        """The bytes of one buffer view; raises `out-of-bounds` where its buffer is shorter.
+
+        A compressed one is decoded once, whatever may lie beside it for those who cannot.
+        """
         view = self._document.views[index]
-        if view.extension(*COMPRESSED) is not None and self._is_placeholder(view):
-            raise unsupported("EXT_meshopt_compression", view.pointer)
+        packed = view.extension(*sorted(COMPRESSED))
+        if packed is None:
+            return self._piece(view)
+        if index not in self._decoded:
+            self._document.budget.spend(decoded_size(view, packed))
+            self._decoded[index] = memoryview(decode(packed, self._piece(packed)))
+        return self._decoded[index]
+
+    def _piece(self, view: Entry) -> memoryview:
         number = view.index("buffer", len(self._document.buffers), "buffers")
         data = self.buffer(number)
         start = view.whole("byteOffset", 0, code="out-of-bounds")
@@ -31,11 +43,6 @@ class Buffers:
         if start + length > len(data):
             raise view.refusal(f"The view ends at byte {start + length} of a buffer of {len(data)}.", "out-of-bounds")
         return data[start : start + length]
-
-    def _is_placeholder(self, view: Entry) -> bool:
-        """Whether the buffer of a compressed view only says how long the view is once decompressed."""
-        buffer = self._document.buffers[view.index("buffer", len(self._document.buffers), "buffers")]
-        return "uri" not in buffer and (buffer.extension(*COMPRESSED) is not None or not self._document.is_glb)
 
     def buffer(self, index: int) -> memoryview:
         """The bytes of one buffer, as long as it states; raises `external-resource` where they were not sent."""

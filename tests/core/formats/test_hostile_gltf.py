@@ -106,12 +106,6 @@ def _short_target(model: Glb) -> None:
     _primitive(targets=[{"POSITION": model.accessor(np.zeros((3, 3)))}])(model)
 
 
-def _meshopt(model: Glb) -> None:
-    compressed: dict[str, Any] = {"extensions": {"EXT_meshopt_compression": {}}}
-    _view(0, buffer=1, **compressed)(model)
-    model.json["buffers"] = [{"byteLength": len(model.binary)}, {"byteLength": 48, **compressed}]
-
-
 def _no_weights(model: Glb) -> None:
     del model.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"]
 
@@ -197,7 +191,6 @@ GEOMETRY: list[Row] = [
     ("NaN position", _data(POSITIONS, 4, np.nan), "non-finite-data", "/accessors/0"),
     ("infinite position", _data(POSITIONS, 0, np.inf), "non-finite-data", "/accessors/0"),
     ("target of other count", _short_target, "invalid-gltf", None),
-    ("meshopt, not said to be required", _meshopt, "unsupported-extension", "/bufferViews/0"),
 ]
 
 GRAPH: list[Row] = [

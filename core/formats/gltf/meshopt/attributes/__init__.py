@@ -1,0 +1,1 @@
+"""The codec of attributes: any elements, byte by byte."""

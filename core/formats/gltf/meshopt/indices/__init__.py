@@ -1,0 +1,1 @@
+"""The codecs of triangles and of other indices."""
