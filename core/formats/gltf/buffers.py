@@ -32,7 +32,7 @@ class Buffers:
             return self._piece(view)
         if index not in self._decoded:
             self._document.budget.spend(decoded_size(view, packed))
-            self._decoded[index] = memoryview(decode(packed, self._piece(packed)))
+            self._decoded[index] = decode(packed, self._piece(packed))
         return self._decoded[index]
 
     def _piece(self, view: Entry) -> memoryview:

@@ -3,7 +3,6 @@
 from typing import NoReturn
 
 import numpy as np
-from jaxtyping import UInt8
 
 from core.errors import InvalidModel
 from core.formats.gltf.entry import Entry
@@ -31,7 +30,7 @@ def decoded_size(view: Entry, extension: Entry) -> int:
     return count * stride
 
 
-def decode(extension: Entry, data: memoryview) -> UInt8[np.ndarray, "bytes"]:
+def decode(extension: Entry, data: memoryview) -> memoryview:
     """The bytes of a view that `decoded_size` has seen, from its compressed ones; raises `decompression-failed`."""
     count, stride = extension.whole("count"), extension.whole("byteStride")
     mode, source = extension.text("mode"), np.frombuffer(data, np.uint8)
@@ -45,10 +44,10 @@ def decode(extension: Entry, data: memoryview) -> UInt8[np.ndarray, "bytes"]:
     else:
         corners = np.zeros(count, np.int64)
         good = triangles(source, corners.reshape(-1, 3)) if mode == "TRIANGLES" else sequence(source, corners)
-        elements = corners.astype(f"<u{stride}").view(np.uint8)
+        elements = corners.astype(f"<u{stride}").view(np.uint8).reshape(count, stride)
     if not good:
         _fail(extension, "breaks off, or goes on after its end")
-    return elements.reshape(-1)
+    return elements.reshape(-1).data
 
 
 def _fail(extension: Entry, what: str) -> NoReturn:

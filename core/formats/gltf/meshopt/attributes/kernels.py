@@ -48,7 +48,7 @@ def attributes(data: Bytes, out: Bytes) -> bool:
         for c in range(channels):
             if not _sum(deltas[4 * c : 4 * c + 4], modes[c], element[4 * c : 4 * c + 4], out[start : start + block], c):
                 return False
-    return at == end
+    return bool(at == end)
 
 
 @exact

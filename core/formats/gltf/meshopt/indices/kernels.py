@@ -45,7 +45,7 @@ def triangles(data: Bytes, out: Words) -> bool:
     state = np.zeros(5, np.int64)
     state[AT] = 1 + len(out)
     for i in range(len(out)):
-        code = np.int64(data[1 + i])
+        code = data[1 + i] & 255
         if code < 0xF0:
             good = _beside_an_edge(code, data, end, state, edges, vertices, out[i])
         else:
@@ -87,12 +87,12 @@ def _alone(code: int, table: Bytes, data: Bytes, end: int, state: Words, vertice
     if code >= 0xFE:
         if state[AT] >= end:
             return False
-        ways = np.int64(data[state[AT]])
+        ways = data[state[AT]] & 255
         state[AT] += 1
         if ways == 0:
             state[NEXT] = 0
     else:
-        ways = np.int64(table[code & 15])
+        ways = table[code & 15] & 255
         if ways >> 4 == TOLD or ways & 15 == TOLD:
             return False
     second, third = ways >> 4, ways & 15
@@ -116,14 +116,16 @@ def _vertex(way: int, data: Bytes, end: int, state: Words, vertices: Words) -> i
         return _next(state)
     if way == TOLD:
         return _told(data, end, state)
-    return vertices[(state[VERTICES] - way) & 15]
+    recent: int = vertices[(state[VERTICES] - way) & 15]
+    return recent
 
 
 @exact
 def _next(state: Words) -> int:
     """The first index that has not occurred."""
-    state[NEXT] = (state[NEXT] + 1) & MASK
-    return (state[NEXT] - 1) & MASK
+    fresh: int = state[NEXT]
+    state[NEXT] = (fresh + 1) & MASK
+    return fresh
 
 
 @exact
@@ -132,8 +134,9 @@ def _told(data: Bytes, end: int, state: Words) -> int:
     value = _number(data, end, state)
     if value < 0:
         return NOTHING
-    state[LAST] = (state[LAST] + _signed(value)) & MASK
-    return state[LAST]
+    index: int = (state[LAST] + _signed(value)) & MASK
+    state[LAST] = index
+    return index
 
 
 @exact
@@ -143,11 +146,12 @@ def _number(data: Bytes, end: int, state: Words) -> int:
     for i in range(5):
         if state[AT] >= end:
             return NOTHING
-        byte = np.int64(data[state[AT]])
+        byte = data[state[AT]] & 255
         state[AT] += 1
         value |= (byte & 127) << (7 * i)
         if byte < 128:
-            return value & MASK
+            number: int = value & MASK
+            return number
     return NOTHING
 
 
