@@ -18,6 +18,9 @@ ALGORITHM = "1"
 Auto = Literal["auto"]
 Positive = Field(gt=0, allow_inf_nan=False)
 
+TOLD_MOTIONS = frozenset({"luo2014", "spectral", "aca", "haca"})
+"""Methods that must be told K: they have no way of their own to choose it, and another's would not be theirs."""
+
 
 def _heavy(default: Any, description: str, **rules: Any) -> Any:
     return Field(default, description=description, json_schema_extra={"weight": "heavy"}, **rules)
@@ -54,7 +57,9 @@ class Parameters(BaseModel):
     )
     window_seconds: float = _heavy(1.3, "seconds, length l of a window of Eq. 3 (paper: 1.3 to 1.7)", gt=0, le=600)
 
-    method: Literal["switching", "joint-entropy"] = _light("switching", "how the take is cut")
+    method: Literal["switching", "joint-entropy", "luo2014", "spectral", "aca", "haca"] = _light(
+        "switching", "how the take is cut"
+    )
     motions: Auto | Annotated[int, Field(ge=1, le=1000)] = _light("auto", "number of motion types K, or `auto`")
     keyframe_window_seconds: float = _light(
         2.0, "seconds, width ω in which a key-frame is the largest (paper: 2.0 to 2.3)", gt=0, le=600
@@ -73,7 +78,7 @@ class Parameters(BaseModel):
                 parameter=unknown[0],
             )
         try:
-            return cls.model_validate({name: _value(text) for name, text in given.items()})
+            parameters = cls.model_validate({name: _value(text) for name, text in given.items()})
         except ValidationError as refused:
             first = refused.errors()[0]
             name = str(first["loc"][0])
@@ -83,6 +88,20 @@ class Parameters(BaseModel):
                 f"It is: {cls.model_fields[name].description}.",
                 parameter=name,
             ) from None
+        if parameters.method in TOLD_MOTIONS:
+            parameters.motions_told()
+        return parameters
+
+    def motions_told(self) -> int:
+        """K; raises `ParameterError` where nobody said it."""
+        if self.motions == "auto":
+            raise ParameterError(
+                "motions-needed",
+                f"The method {self.method} must be told how many motions there are: send motions=K, a number."
+                " The methods switching and joint-entropy find it themselves.",
+                parameter="motions",
+            )
+        return self.motions
 
     def heavy(self) -> "dict[str, Any]":
         """The parameters an analysis depends on; light ones may change without touching a vertex."""

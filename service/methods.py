@@ -5,11 +5,15 @@ from typing import Any, get_args
 
 from pydantic import BaseModel
 
-from core.parameters import Parameters
+from core.parameters import TOLD_MOTIONS, Parameters
 
 DESCRIPTIONS = {
     "switching": "Our default: what every frame does is explained by one of K motions, and changing motion costs.",
     "joint-entropy": "The paper's: key-frames of the joint-entropy curve, grouped by K-means, cuts between groups.",
+    "luo2014": "Compared with: segments in which frames differ least on average, then grouped. Up to 10,000 frames.",
+    "spectral": "Compared with: spectral clustering of single frames, no run too short. Up to 5,000 frames.",
+    "aca": "Compared with: aligned cluster analysis, groups of segments alike at any speed. Up to 5,000 frames.",
+    "haca": "Compared with: aligned cluster analysis in two levels, moves and motions. Up to 5,000 frames.",
 }
 
 
@@ -31,7 +35,12 @@ def methods() -> tuple[MethodDocument, ...]:
 
 
 def _schema(method: str) -> dict[str, Any]:
-    """The schema of the parameters with the method settled."""
+    """The schema of the parameters with the method settled; some methods must be told the number of motions."""
     schema = Parameters.model_json_schema()
     schema["properties"]["method"] = {"const": method, "description": "the method"}
+    if method in TOLD_MOTIONS:
+        motions = schema["properties"]["motions"]
+        motions |= {"anyOf": [kind for kind in motions["anyOf"] if kind.get("type") == "integer"]}
+        del motions["default"]
+        schema["required"] = ["motions"]
     return schema

@@ -119,3 +119,96 @@ def ward(means, weights):
         groups[i] = ((mean_i * weight_i + mean_j * weight_j) / (weight_i + weight_j), weight_i + weight_j)
         merges.append((i, j))
     return merges
+
+
+# --- compared methods: alignment and dissimilarity ---
+
+
+def alignments(rows, columns):
+    """Every path from (0, 0) to the last corner, as lists of cells."""
+    if rows == columns == 1:
+        return [[(0, 0)]]
+    before = []
+    for r, c in ((rows - 1, columns), (rows, columns - 1), (rows - 1, columns - 1)):
+        before += alignments(r, c) if r and c else []
+    return [[*path, (rows - 1, columns - 1)] for path in before]
+
+
+def dtak(kernel, own, other):
+    """The dynamic time alignment kernel of two weighted segments by trying every path: the dearest one's value.
+
+    A step pays the kernel at the cell it reaches times the weights of those samples that it takes anew.
+    """
+    best = -np.inf
+    for path in alignments(len(own), len(other)):
+        value = (own[0] + other[0]) * kernel[0, 0]
+        for (i, j), (r, c) in pairwise(path):
+            value += ((r > i) * own[r] + (c > j) * other[c]) * kernel[r, c]
+        best = max(best, value)
+    return best / (sum(own) + sum(other))
+
+
+def compositions(total, shortest, longest):
+    """Every way to cut `total` samples into segments of these lengths, as bounds."""
+    if total == 0:
+        return [[0]]
+    lengths = range(shortest, min(longest, total) + 1)
+    return [[*head, total] for n in lengths for head in compositions(total - n, shortest, longest)]
+
+
+def least_recut(kernel, weights, bounds, labels, longest):
+    """The least cost of any segmentation whose segments join the nearest mean of the given groups of segments."""
+    given = list(pairwise(bounds))
+    members = {c: [s for s, label in zip(given, labels, strict=True) if label == c] for c in sorted(set(labels))}
+
+    def alike(one, other):
+        (a, b), (c, d) = one, other
+        return dtak(kernel[a:b, c:d], weights[a:b], weights[c:d])
+
+    spread = {c: np.mean([alike(s, t) for s in of_group for t in of_group]) for c, of_group in members.items()}
+
+    def cost(segment):
+        a, b = segment
+        own = (weights[a:b] * np.diag(kernel)[a:b]).sum() / weights[a:b].sum()
+        return min(own - 2 * np.mean([alike(segment, s) for s in members[c]]) + spread[c] for c in members)
+
+    costs = {(a, b): cost((a, b)) for b in range(1, len(kernel) + 1) for a in range(max(b - longest, 0), b)}
+    return min(sum(costs[s] for s in pairwise(cut)) for cut in compositions(len(kernel), 1, longest))
+
+
+def persistent(kernel, longest):
+    """The propagated likeness, pair by pair and lag by lag."""
+    samples = len(kernel)
+    out = np.zeros_like(kernel)
+    for i in range(samples):
+        for j in range(i + 1, samples):
+            for w in range(1, longest + 1):
+                if j + w < samples:
+                    least = min(kernel[i, j], kernel[i + w, j + w])
+                    for a, b in ((i, j), (i + w, j + w), (i, j + w), (i + w, j)):
+                        out[a, b] = max(out[a, b], least)
+    upper = np.triu(out, 1)
+    return upper + upper.T + np.eye(samples)
+
+
+def fewest_strangers(labels, shortest, longest):
+    """The least number of samples that are not of their segment's most frequent label, over every segmentation."""
+    return min(
+        sum(b - a - np.bincount(labels[a:b]).max() for a, b in pairwise(cut))
+        for cut in compositions(len(labels), shortest, longest)
+    )
+
+
+def dissimilarity(values, bounds):
+    """Σ over segments of the average distance of all pairs of frames within one."""
+    total = 0.0
+    for a, b in pairwise(bounds):
+        pairs = [np.linalg.norm(values[i] - values[j]) for i in range(a, b) for j in range(i + 1, b)]
+        total += np.mean(pairs) if pairs else 0.0
+    return total
+
+
+def least_dissimilarity(values, segments, shortest):
+    """The least of it over every segmentation into so many segments."""
+    cuts = compositions(len(values), shortest, len(values))
+    return min(dissimilarity(values, cut) for cut in cuts if len(cut) == segments + 1)
