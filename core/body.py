@@ -6,11 +6,12 @@ import numpy as np
 from jaxtyping import Float32
 
 from core.animation import Animation
+from core.descriptors.coherence import coherent_order
 from core.descriptors.pair_distances import PairDistances
 from core.descriptors.pair_strain import PairStrain
 from core.descriptors.patch_means import PatchMeans
 from core.descriptors.patches import patch_of_triangles
-from core.descriptors.strain import TriangleStrain
+from core.descriptors.strain import TILE, TriangleStrain
 from core.document import Notice
 from core.errors import InvalidModel
 from core.parameters import Parameters
@@ -50,7 +51,7 @@ class Body:
             )
             return cls(PairStrain.of(pairs), NO_PATCHES, pairs), (notice,)
         patch = patch_of_triangles(rest, triangles)
-        order = np.argsort(patch, kind="stable")
+        order = coherent_order(rest, triangles, TILE)
         strain = TriangleStrain.of(rest, triangles, order, parameters.strain, parameters.scale_invariant)
         if strain.columns == 0:
             detail = "No triangle of the rest shape has area, so nothing can be strained. Send a mesh with a surface."

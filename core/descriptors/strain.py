@@ -89,12 +89,12 @@ class TriangleStrain:
         """
         frames = len(block)
         rows = np.empty((max((len(p.members) for p in self.parts), default=0), 3, frames), np.float32)
-        tile, other = np.empty((TILE, frames), np.float32), np.empty(frames, np.float32)
+        tile, stretches = np.empty((TILE, frames), np.float32), np.empty((2, frames), np.float32)
         scale = self._scale(block, rows)
         for number, part in enumerate(self.parts):
             kernels.gather(block, part.members, rows)
             out = tile[: len(part.corners)]
-            kernels.strain_tile(rows, part.corners, part.shapes, scale, self.measure, other, out)
+            kernels.strain_tile(rows, part.corners, part.shapes, scale, self.measure, stretches, out)
             yield slice(number * TILE, number * TILE + len(out)), out
 
     def noise(self, reach: float) -> Float32[np.ndarray, "columns"]:
