@@ -35,7 +35,8 @@ class Animation:
     `vertices(start, stop)` draws frames [start, stop) as float32 (block, V, 3); nothing holds all frames at once.
     `rest` is the undeformed shape the file itself names (bind pose, base mesh), or None where it names none
     (then the method takes frame 0). A skeleton without a mesh has `triangles` of shape (0, 3): its vertices are
-    its joints. Frames are integers from 0; frame i is at `start_seconds` + i / `frame_rate` on the file's clock.
+    its joints. `as_gltf` says that it is one take of one glTF, all of which its nodes and skins can show. Frames are
+    integers from 0; frame i is at `start_seconds` + i / `frame_rate` on the file's clock.
     """
 
     vertices: Vertices
@@ -46,6 +47,7 @@ class Animation:
     frame_rate: float
     take: Take
     start_seconds: float = 0.0
+    as_gltf: bool = False
     notices: tuple[Notice, ...] = field(default=())
 
     def seconds(self, frame: int) -> float:

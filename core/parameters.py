@@ -35,14 +35,19 @@ class Parameters(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
-    take: str | int = _heavy("longest", "the take: its name, its index, or `longest`")
+    take: str | int = _heavy("longest", "the take: its name, its index, `longest`, or `all`, one after the other")
     fps: Literal["source"] | Annotated[float, Field(gt=0, le=1000)] = _heavy(
         "source", "frames per second; `source` is the rate of the file's own keys"
     )
+    start: float = _heavy(0.0, "seconds on the file's clock where the first frame is taken", ge=0)
+    end: Literal["last"] | Annotated[float, Positive] = _heavy(
+        "last", "seconds on the file's clock after which no frame is taken; `last` is the take's last frame"
+    )
+    trim: bool = _heavy(False, "start at the take's first key and not at 0")
     rest: Literal["bind", "mean"] | int = _heavy(
         "bind", "rest shape: `bind` (bind pose or base mesh, else frame 0), `mean`, or a frame's number"
     )
-    descriptor: Literal["strain", "pair-distances", "curvature"] = _heavy(
+    descriptor: Literal["strain", "pair-distances", "geodesic", "heat-kernel", "curvature"] = _heavy(
         "strain", "what is measured on each triangle (paper, section 3), or between pairs of points"
     )
     strain: Literal["log", "biot", "max"] = _heavy("log", "measure of strain: Hencky (`log`), Biot, or largest")

@@ -11,10 +11,11 @@ from core.animation import Animation, Take
 from core.errors import InvalidModel
 from core.formats.archive import Archive, malformed
 from core.formats.buffer_file import BufferFile
-from core.formats.frame_rate import ASSUMED, frame_count
+from core.formats.frame_rate import ASSUMED
 from core.formats.notices import Notices
 from core.formats.npy import NpyHeader
 from core.formats.sequence_members import check_shapes, members_by_use
+from core.formats.stretch import counted, stretch
 from core.formats.vertex_sequence import VertexSequence, finite
 from core.limits import Limits
 from core.parameters import Parameters
@@ -47,20 +48,24 @@ def read_npz(
     frames_stored = headers["vertices"].shape[0]
     rate, fps = _rates(parameters, stored_rate, notices)
     duration = (frames_stored - 1) / rate
-    limits.check("max_seconds", duration, "Cut the sequence")
-    frames = frame_count(duration, fps)
-    limits.check("max_frames", frames, "Send a lower fps or cut the sequence")
-    limits.check("max_triangle_frames", frames * len(triangles), "Send a lower fps or decimate the mesh")
+    start, end = stretch(parameters, duration)
+    frames = counted(limits, end - start, fps, len(triangles))
     return Animation(
-        vertices=VertexSequence(array("vertices"), rate / fps),
+        vertices=VertexSequence(array("vertices"), rate / fps, _nearly_whole(start * rate)),
         vertex_count=headers["vertices"].shape[1],
         triangles=triangles,
         rest=rest,
-        frames=int(frames),
+        frames=frames,
         frame_rate=fps,
-        take=Take(0, "vertices", duration, int(frames), fps),
+        take=Take(0, "vertices", duration, frames, fps),
+        start_seconds=start,
         notices=notices.told(),
     )
+
+
+def _nearly_whole(frame: float) -> float:
+    """A stored frame's number, without the rounding of the seconds that named it."""
+    return float(round(frame)) if abs(frame - round(frame)) < 1e-6 else frame
 
 
 def _array(

@@ -12,20 +12,22 @@ BLOCK_BYTES = 2**26
 
 @dataclass(frozen=True)
 class VertexSequence:
-    """Draws frames of `stored` (F, V, 3), of any kind of number and order, in steps of `step` stored frames.
+    """Draws frames of `stored` (F, V, 3), of any kind of number and order, from `first` on in steps of `step` frames.
 
     Between stored frames vertices go straight. `stored` may lie on disk: only what is asked for is touched.
     """
 
     stored: Shaped[np.ndarray, "F V 3"]
     step: float = 1.0
+    first: float = 0.0
 
     def __call__(self, start: int, stop: int) -> Float[np.ndarray, "block V 3"]:
         """Positions of frames [start, stop); raises `non-finite-data` naming frame and vertex."""
-        if self.step == 1:
-            block = _plain(self.stored[start:stop])
+        if self.step == 1 and self.first.is_integer():
+            skipped = int(self.first)
+            block = _plain(self.stored[skipped + start : skipped + stop])
         else:
-            at = np.minimum(np.arange(start, stop) * self.step, len(self.stored) - 1)
+            at = np.minimum(self.first + np.arange(start, stop) * self.step, len(self.stored) - 1)
             before = np.minimum(at.astype(np.int64), len(self.stored) - 2)
             share = (at - before)[:, None, None]
             block = _plain(self.stored[before] * (1 - share) + self.stored[before + 1] * share)

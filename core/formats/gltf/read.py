@@ -5,11 +5,12 @@ from collections.abc import Mapping
 import numpy as np
 from jaxtyping import Float
 
-from core.animation import Animation, Take
+from core.animation import Animation
 from core.errors import InvalidModel
-from core.formats.frame_rate import ASSUMED, frame_count, key_rate
+from core.formats.frame_rate import ASSUMED, key_rate
 from core.formats.gltf.accessors import Accessors
 from core.formats.gltf.channels import Channel
+from core.formats.gltf.course import all_takes, one_take
 from core.formats.gltf.document import Document
 from core.formats.gltf.figure import Figure, joints_figure, read_figure, still_weights
 from core.formats.gltf.key_times import MOST_KEYS
@@ -17,7 +18,7 @@ from core.formats.gltf.nodes import NodeGraph, read_nodes, scene_nodes
 from core.formats.gltf.posing.skeleton import read_skeleton
 from core.formats.gltf.posing.vertices import PosedVertices, rest_pose
 from core.formats.gltf.sampling import Slots, Tracks, read_tracks
-from core.formats.gltf.take import choose_animation
+from core.formats.gltf.take import chosen_takes
 from core.limits import Limits
 from core.parameters import Parameters
 
@@ -28,21 +29,31 @@ def read_gltf(data: memoryview, parts: Mapping[str, memoryview], parameters: Par
     accessors = Accessors(document)
     graph = read_nodes(document)
     nodes = scene_nodes(document, graph)
-    index, name, channels = choose_animation(document, accessors, parameters.take)
+    chosen = chosen_takes(document, accessors, parameters.take)
+    channels = [channel for take in chosen for channel in take.channels]
     figure = read_figure(document, accessors, graph, nodes) or _skeleton_figure(document, graph, nodes, channels)
     skeleton, still, slots = read_skeleton(graph, figure)
     still, weight_slots = _with_weights(document, graph, figure, still)
-    tracks = read_tracks(accessors, channels, still, slots, weight_slots)
-    rate = _rate(document, parameters, tracks)
-    frames = _frames(limits, tracks.duration, rate, len(figure.triangles))
+    tracks = [read_tracks(accessors, take.channels, still, slots, weight_slots) for take in chosen]
+    rate = _rate(document, parameters, max(tracks, key=lambda take: take.duration))
+
+    def pose(take: Tracks, start: float) -> PosedVertices:
+        return PosedVertices(figure, skeleton, take, weight_slots, rate, start)
+
+    if len(chosen) == 1:
+        course = one_take(chosen[0], tracks[0], pose, rate, len(figure.triangles), parameters, limits)
+    else:
+        course = all_takes(chosen, tracks, pose, rate, len(figure.triangles), parameters, limits, document.notices)
     return Animation(
-        vertices=PosedVertices(figure, skeleton, tracks, weight_slots, rate),
+        vertices=course.vertices,
         vertex_count=len(figure.positions),
         triangles=figure.triangles,
         rest=rest_pose(figure, skeleton, still),
-        frames=frames,
+        frames=course.frames,
         frame_rate=rate,
-        take=Take(index, name, tracks.duration, frames, rate),
+        take=course.take,
+        start_seconds=course.start_seconds,
+        as_gltf=len(chosen) == 1,
         notices=document.notices.told(),
     )
 
@@ -83,12 +94,3 @@ def _rate(document: Document, parameters: Parameters, tracks: Tracks) -> float:
     if rate is None:
         document.notices.add("frame-rate-assumed", f"The keys tell no frame rate; {ASSUMED:g} a second was taken.")
     return rate or ASSUMED
-
-
-def _frames(limits: Limits, duration: float, rate: float, triangles: int) -> int:
-    """Frames of the take, compared with the limits while they are still a float."""
-    limits.check("max_seconds", duration, "Cut the take")
-    frames = frame_count(duration, rate)
-    limits.check("max_frames", frames, "Send a lower fps or cut the take")
-    limits.check("max_triangle_frames", frames * triangles, "Send a lower fps, cut the take or decimate the mesh")
-    return int(frames)

@@ -23,8 +23,9 @@ class Tracks:
 
     Keys of channel c are times[first_key[c]:][:keys[c]], its values begin at values[first_value[c]] with width[c]
     numbers a key, or three times as many (in-tangent, value, out-tangent) in a cubic spline. `still` is the pose
-    of a frame where nothing moves: ten numbers for every node, then the weights of morph targets. `duration` is
-    the time of the last key in seconds, `densest` the most key times that one channel has.
+    of a frame where nothing moves: ten numbers for every node, then the weights of morph targets. `first` and
+    `duration` are the times of the first and the last key in seconds, `densest` the most key times that one channel
+    has.
     """
 
     still: Float[np.ndarray, "numbers"]
@@ -37,6 +38,7 @@ class Tracks:
     mode: Int[np.ndarray, "channels"]
     is_rotation: np.ndarray
     slot: Int[np.ndarray, "channels"]
+    first: float
     duration: float
     densest: Float[np.ndarray, "most_keys"]
 
@@ -75,6 +77,7 @@ def read_tracks(
         mode=_column([MODES[channel.interpolation] for channel in used]),
         is_rotation=np.array([channel.path == "rotation" for channel in used], bool),
         slot=_column([_slot(channel, nodes, weights) for channel in used]),
+        first=float(times.min()),
         duration=float(times.max()),
         densest=max(clocks.values(), key=len),
     )

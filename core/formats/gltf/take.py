@@ -1,10 +1,40 @@
 """Which of the file's animations is meant, and how long it is."""
 
+from dataclasses import dataclass
+
 from core.errors import InvalidModel
 from core.formats.gltf.accessors import Accessors
 from core.formats.gltf.channels import Channel, read_channels
 from core.formats.gltf.document import Document
 from core.formats.takes import choose_take, take_name
+
+
+@dataclass(frozen=True)
+class ChosenTake:
+    """An animation's place in the file, its name, and what it moves."""
+
+    index: int
+    name: str
+    channels: list[Channel]
+
+
+def chosen_takes(document: Document, accessors: Accessors, wanted: str | int) -> list[ChosenTake]:
+    """The take that is wanted, or with `all` every take that moves something; raises as `choose_animation` does."""
+    if wanted != "all" or len(document.animations) < 2 or "all" in take_names(document):
+        return [
+            ChosenTake(
+                *choose_animation(
+                    document, accessors, "longest" if wanted == "all" and "all" not in take_names(document) else wanted
+                )
+            )
+        ]
+    names = take_names(document)
+    every = [
+        ChosenTake(place, names[place], read_channels(document, accessors, entry))
+        for place, entry in enumerate(document.animations)
+    ]
+    moving = [take for take in every if take.channels]
+    return moving or [ChosenTake(*choose_animation(document, accessors, "longest"))]
 
 
 def choose_animation(document: Document, accessors: Accessors, wanted: str | int) -> tuple[int, str, list[Channel]]:

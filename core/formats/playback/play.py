@@ -12,8 +12,6 @@ from core.animation import Animation
 from core.formats.playback.plain_copy import plain_copy
 from core.formats.playback.strain_blocks import Patches, patches, strain_blocks
 from core.formats.playback.vertex_blocks import shown_mesh, vertex_blocks
-from core.formats.read import main_part
-from core.formats.sniffing import SNIFFED, sniff
 from core.progress import Progress, ignore
 from core.rest import rest_shape
 
@@ -46,8 +44,8 @@ def playback(
     surface = _patches(animation, analysis)
     of_vertex = np.zeros(animation.vertex_count, np.int64) if surface is None else surface.of_vertex
     shown = {"vertices": animation.vertex_count, "triangles": len(animation.triangles)}
-    kind = "vertices" if sniff(bytes(views[main_part(views)][:SNIFFED])) == "npz" else "gltf"
-    if kind == "gltf":
+    kind = "gltf" if animation.as_gltf else "vertices"
+    if animation.as_gltf:
         model = plain_copy(views, animation.take.index, of_vertex)
     else:
         mesh = shown_mesh(animation)

@@ -20,7 +20,7 @@ SCRATCH_BYTES = 16 * 2**20
 
 @dataclass(frozen=True)
 class PosedVertices:
-    """Draws frames of a glTF take; frame i is at i / `frame_rate` seconds. Safe to call from several threads.
+    """Draws frames of a glTF take; frame i is at `start_seconds` + i / `frame_rate`. Safe to call from several threads.
 
     Matrices and sums are float64, the result float32: world = Σ weight · world[bone] · bind · position, and where
     the mesh has morph targets, its position is base + Σ weight · displacement (glTF 2.0, section 3.7).
@@ -31,13 +31,14 @@ class PosedVertices:
     tracks: Tracks
     weight_slots: Slots
     frame_rate: float
+    start_seconds: float = 0.0
 
     def __call__(self, start: int, stop: int) -> Float[np.ndarray, "block V 3"]:
         """Positions of frames [start, stop); raises `non-finite-data` naming frame and vertex."""
         out = np.empty((stop - start, len(self.figure.positions), 3), np.float32)
         for first in range(start, stop, self._frames_at_once):
             last = min(first + self._frames_at_once, stop)
-            poses = self.tracks.poses(np.arange(first, last) / self.frame_rate)
+            poses = self.tracks.poses(self.start_seconds + np.arange(first, last) / self.frame_rate)
             block = out[first - start : last - start]
             if not self._draw(poses, self.skeleton.palette(poses), block):
                 frame, vertex = np.argwhere(~np.isfinite(block).all(axis=2))[0].tolist()
