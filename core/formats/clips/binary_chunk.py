@@ -1,0 +1,76 @@
+"""The binary chunk of the file as it was, with new arrays in the room that was freed, and behind it."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from core.formats.clips.free_space import Range
+
+PIECE = 2**20
+
+
+class BinaryChunk:
+    """`pieces` lie at their offsets, `free` is room between them. Arrays are kept until they are written."""
+
+    def __init__(self, pieces: list[tuple[int, memoryview]], length: int, free: list[Range]) -> None:
+        self._old = pieces
+        self._patches: list[tuple[int, bytes]] = []
+        self._rooms = [Room(-(-start // 4) * 4, end) for start, end in free]
+        if free and length - free[-1][1] < 4:
+            self._rooms.pop()
+            length = free[-1][0]
+            self._old = [(at, data[: max(length - at, 0)]) for at, data in pieces]
+        self._patches += [(start, bytes(end - start)) for start, end in free if end <= length]
+        self._tail = Room(-(-length // 4) * 4, 2**63)
+        self._end = length
+
+    def put(self, data: bytes) -> tuple["Room", int]:
+        """Find room for an array: the room, whose view it will be in, and where in it."""
+        for room in self._rooms:
+            if room.end - room.next >= len(data):
+                break
+        else:
+            room = self._tail
+        at = room.next
+        self._patches.append((at, data))
+        room.next += -(-len(data) // 4) * 4
+        if room is self._tail:
+            self._end = at + len(data)
+        return room, at - room.start
+
+    @property
+    def length(self) -> int:
+        """Bytes, without padding."""
+        return self._end
+
+    def content(self) -> Iterator[bytes]:
+        """All of it: what was there, patched, and what is new."""
+        at = 0
+        for start, data in self._layers():
+            yield bytes(start - at)
+            for piece in range(0, len(data), PIECE):
+                yield bytes(data[piece : piece + PIECE])
+            at = start + len(data)
+        yield bytes(self._end - at)
+
+    def _layers(self) -> Iterator[tuple[int, memoryview]]:
+        """Stretches in order that do not overlap: a patch hides what is under it, a later patch an earlier one."""
+        layers = [*self._old, *((start, memoryview(data)) for start, data in self._patches)]
+        edges = sorted({edge for start, data in layers for edge in (start, start + len(data))})
+        top: dict[int, int] = {}
+        place = {edge: number for number, edge in enumerate(edges)}
+        for number, (start, data) in enumerate(layers):
+            for edge in range(place[start], place[start + len(data)]):
+                top[edge] = number
+        for edge in sorted(top):
+            start, data = layers[top[edge]]
+            yield edges[edge], data[edges[edge] - start : edges[edge + 1] - start]
+
+
+class Room:
+    """Bytes [start, end), of which those before `next` are taken."""
+
+    def __init__(self, start: int, end: int) -> None:
+        self.start = self.next = start
+        self.end = end
+        self.view: dict[str, Any] | None = None
+        self.number = -1

@@ -1,0 +1,140 @@
+"""The uploaded file with some of its animations taken out and others put in, and nothing else changed."""
+
+import json
+import struct
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float, Shaped
+
+from core.formats.clips.animation_only import without_meshes
+from core.formats.clips.binary_chunk import BinaryChunk
+from core.formats.clips.free_space import free_ranges, freed_accessors, unused_views
+from core.formats.clips.self_contained import SelfContained
+from core.formats.gltf.accessors import Accessors, Layout
+from core.formats.gltf.document import Document
+from core.formats.gltf.writer import COMPONENTS
+from core.formats.read import main_part
+from core.limits import Limits
+
+UNUSED = {"componentType": 5126, "count": 1, "type": "SCALAR"}
+"""What stands in the place of an accessor that is gone, so that the numbers of the others stay."""
+
+
+class Replacement:
+    """`removed` animations go, `add` puts others in where the first of them was, `pieces` are the GLB.
+
+    The file has been read before, so its limits are not asked again.
+    """
+
+    def __init__(self, parts: Mapping[str, memoryview], *, animation_only: bool = False) -> None:
+        beside = dict(parts)
+        self.document = Document(beside.pop(main_part(parts)), beside, Limits.none())
+        self.accessors = Accessors(self.document)
+        self._file = SelfContained(self.document)
+        self._bare = animation_only
+        self._freed: list[int] = []
+        self._slots: list[int] = []
+        self._entries: list[tuple[int, dict[str, Any], bytes | None]] = []
+        self._known: dict[tuple[Any, ...], int] = {}
+        self._place = 0
+        if animation_only:
+            without_meshes(self._file)
+
+    def remove(self, removed: list[int], place: int) -> None:
+        """Take animations out by their numbers; clips go where number `place` is."""
+        animations = self._file.json.get("animations", [])
+        gone = [animations[number] for number in removed]
+        self._place = place - sum(number < place for number in removed) + (place not in removed)
+        self._file.json["animations"] = [a for number, a in enumerate(animations) if number not in removed]
+        if not self._bare:
+            self._freed = freed_accessors(self._file.json, gone)
+            self._slots = self._freed[::-1]
+
+    def add(self, animations: list[dict[str, Any]]) -> None:
+        """Put animations in."""
+        self._file.json["animations"][self._place : self._place] = animations
+
+    def window(self, layout: Layout, first: int, count: int) -> int | None:
+        """An accessor of `count` elements of another, from number `first` on; None where it cannot be looked into."""
+        entry = layout.entry.value
+        if self._bare or "bufferView" not in entry or "sparse" in entry:
+            return None
+        start = entry.get("byteOffset", 0) + first * layout.width * layout.dtype.itemsize
+        kept: dict[str, Any] = {
+            name: entry[name] for name in ("bufferView", "componentType", "type", "normalized") if name in entry
+        }
+        return self._accessor(kept | ({"byteOffset": start} if start else {}) | {"count": count}, None)
+
+    def times(self, seconds: Float[np.ndarray, "keys"]) -> int:
+        """An accessor of key times, with the bounds that they must have."""
+        return self.array(seconds, "SCALAR", 1, {"min": [float(seconds[0])], "max": [float(seconds[-1])]})
+
+    def array(self, values: Shaped[np.ndarray, "..."], kind: str, width: int, more: dict[str, Any]) -> int:
+        """An accessor of new numbers, elements of `width` each."""
+        data = np.ascontiguousarray(values).astype(values.dtype.newbyteorder("<")).tobytes()
+        accessor = {"componentType": COMPONENTS[values.dtype.name], "count": values.size // width, "type": kind}
+        return self._accessor(accessor | more, data)
+
+    def pieces(self) -> Iterator[bytes]:
+        """The GLB."""
+        root = self._file.json
+        chunk = self._placed()
+        if chunk.length:
+            root["buffers"][0]["byteLength"] = chunk.length
+        else:
+            root["buffers"] = root["buffers"][1:]
+        for name in [name for name in ("buffers", "bufferViews", "accessors") if not root.get(name)]:
+            root.pop(name, None)
+        text = json.dumps(root, separators=(",", ":"), allow_nan=False).encode()
+        text += b" " * (-len(text) % 4)
+        padding = -chunk.length % 4
+        binary = 8 + chunk.length + padding if chunk.length else 0
+        yield struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + binary)
+        yield struct.pack("<I4s", len(text), b"JSON") + text
+        if binary:
+            yield struct.pack("<I4s", chunk.length + padding, b"BIN\0")
+            yield from filter(None, chunk.content())
+            yield bytes(padding)
+
+    def _accessor(self, accessor: dict[str, Any], data: bytes | None) -> int:
+        """Its number; the same numbers again are the same accessor."""
+        key = (data, tuple((name, str(value)) for name, value in accessor.items()))
+        if key not in self._known:
+            accessors = self._file.json.setdefault("accessors", [])
+            if self._slots:
+                number = self._slots.pop()
+            else:
+                number = len(accessors)
+                accessors.append(UNUSED)
+            self._entries.append((number, accessor, data))
+            self._known[key] = number
+        return self._known[key]
+
+    def _placed(self) -> BinaryChunk:
+        """Write the new accessors into the JSON and their bytes into room that is free."""
+        root = self._file.json
+        windows = [accessor for _, accessor, data in self._entries if data is None]
+        freed = [number for number in self._freed if number < len(root.get("accessors", []))]
+        chunk = BinaryChunk(self._file.pieces, self._file.length, free_ranges(root, freed, windows))
+        spare = unused_views(root, freed, windows)
+        views = root.setdefault("bufferViews", [])
+        for number in freed:
+            root["accessors"][number] = dict(UNUSED)
+        for number in spare:
+            views[number] = {"buffer": 0, "byteLength": 1}
+        for number, accessor, data in self._entries:
+            if data is not None:
+                room, offset = chunk.put(data)
+                if room.view is None:
+                    room.view = {"buffer": 0, "byteOffset": room.start}
+                    room.number = spare.pop() if spare else len(views)
+                    views[room.number : room.number + 1] = [room.view]
+                room.view["byteLength"] = offset + len(data)
+                accessor.update({"bufferView": room.number, **({"byteOffset": offset} if offset else {})})
+            root["accessors"][number] = accessor
+        for view in views:  # of a take that lay last only parts may have stayed
+            if view["buffer"] == 0:
+                view["byteLength"] = min(view["byteLength"], chunk.length - view.get("byteOffset", 0))
+        return chunk
