@@ -40,7 +40,8 @@ class Segment(_Value):
     """Frames [start, end) of one motion. Segments tile [0, frames) exactly.
 
     `end_seconds` is the time of the next segment's first frame, at most the duration. `confidence`, 0 to 1, is
-    how sure the cut at `end` is; the last segment ends with the take and has 1.
+    how sure the cut at `end` is; the last segment ends with the take and has 1. `repeats` tile the segment: one
+    interval for each time the motion is performed, and the whole segment where nothing repeats.
     """
 
     start: int

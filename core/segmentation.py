@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float, Int
 
-from core.document import KeyFrame, Notice, Score, Segment, SegmentationDocument, Source, motion_name
+from core.document import Interval, KeyFrame, Notice, Score, Segment, SegmentationDocument, Source, motion_name
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,10 @@ class Cut:
 
 @dataclass(frozen=True)
 class Segmentation:
-    """The motions of a take. `labels` are 0-based in order of first appearance, one per frame."""
+    """The motions of a take. `labels` are 0-based in order of first appearance, one per frame.
+
+    `repeats` are the repetitions of each segment, or nothing where nobody looked for them.
+    """
 
     method: str
     algorithm: str
@@ -38,6 +41,7 @@ class Segmentation:
     confidence: Float[np.ndarray, "cuts"]
     scores: tuple[Score, ...] = ()
     notices: tuple[Notice, ...] = ()
+    repeats: tuple[tuple[Interval, ...], ...] = ()
 
     @property
     def cuts(self) -> Int[np.ndarray, "cuts"]:
@@ -55,6 +59,7 @@ class Segmentation:
         frames = len(self.labels)
         bounds = [0, *self.cuts.tolist(), frames]
         sure = [*self.confidence.tolist(), 1.0]
+        repeats = self.repeats or ((),) * len(sure)
         last = self.source.start_seconds + (frames - 1) / self.frame_rate
         return tuple(
             Segment(
@@ -64,9 +69,10 @@ class Segmentation:
                 end_seconds=min(self._seconds(end), last),
                 motion=int(self.labels[start]),
                 name=motion_name(int(self.labels[start])),
+                repeats=repeated,
                 confidence=round(float(confidence), 4),
             )
-            for start, end, confidence in zip(bounds[:-1], bounds[1:], sure, strict=True)
+            for start, end, confidence, repeated in zip(bounds[:-1], bounds[1:], sure, repeats, strict=True)
         )
 
     def document(self, identifier: str | None = None) -> SegmentationDocument:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from jaxtyping import Float
@@ -31,16 +32,24 @@ class Part:
 
 @dataclass(frozen=True)
 class Truth:
-    """What was performed: labels and frames [start, end) that tile the take."""
+    """What was performed: labels and frames [start, end) that tile the take, and how often."""
 
     fps: float
     frames: int
     segments: tuple[tuple[str, int, int], ...]
+    repeats: tuple[tuple[int, ...], ...]  # of each segment: the frames at which its repetitions end
 
     def document(self) -> dict[str, object]:
         """As JSON values: the form of the truth files that `caesura score` reads."""
-        segments = [{"label": label, "start": start, "end": end} for label, start, end in self.segments]
+        segments = [
+            {"label": label, "start": start, "end": end, "repeats": _intervals(start, ends)}
+            for (label, start, end), ends in zip(self.segments, self.repeats, strict=True)
+        ]
         return {"fps": self.fps, "frames": self.frames, "segments": segments}
+
+
+def _intervals(start: int, ends: Sequence[int]) -> list[dict[str, int]]:
+    return [{"start": a, "end": b} for a, b in pairwise((start, *ends))]
 
 
 @dataclass(frozen=True)
@@ -83,7 +92,9 @@ def perform(parts: Sequence[Part], random: np.random.Generator) -> Take:
         course.drives[first:last] += share[:, None] * clip.drives
     course.angles[:] += _wander(length, random)
     names = [part.motion.name for part in parts]
-    return _record(course, Truth(RATE, length, tuple(zip(names, cuts, cuts[1:], strict=False))))
+    segments = tuple(zip(names, cuts, cuts[1:], strict=False))
+    repeats = tuple(tuple(np.rint(s + p.ends).astype(int).tolist()) for p, s in zip(parts, cuts, strict=False))
+    return _record(course, Truth(RATE, length, segments, repeats))
 
 
 def _record(course: Course, truth: Truth) -> Take:

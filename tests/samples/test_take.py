@@ -48,6 +48,15 @@ def test_the_truth_tiles_the_take():
     assert ends[-1] == truth.frames
 
 
+def test_the_truth_says_how_often_each_motion_is_performed():
+    """And where each repetition ends: they tile their segment."""
+    truth = take(("walk", 3), ("wave", 4), ("bow", 1)).truth
+    assert [len(ends) for ends in truth.repeats] == [3, 4, 1]
+    assert [ends[-1] for ends in truth.repeats] == [end for _, _, end in truth.segments]
+    first = truth.document()["segments"][0]["repeats"]
+    assert first[0] == {"start": 0, "end": truth.repeats[0][0]}
+
+
 def test_a_motion_begins_in_the_middle_of_its_cross_fade():
     """Outside the half second around a cut there is one motion alone: the arm is down before and up after."""
     performed = take(("squat", 1), ("wave", 3))
