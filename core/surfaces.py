@@ -13,6 +13,8 @@ from jaxtyping import Float32
 
 from core.animation import Animation
 from core.descriptors.curvature import Curvature
+from core.descriptors.geodesic import Geodesic
+from core.descriptors.heat_kernel import HeatKernel
 from core.descriptors.strain import TriangleStrain
 from core.mesh.mesh import Mesh
 from core.mesh.welding import weld
@@ -54,5 +56,7 @@ class Subject:
 
 SURFACES: dict[str, Callable[[Subject], Surface]] = {
     "strain": lambda subject: subject.strain,
+    "geodesic": lambda subject: Geodesic.of(subject.mesh),
+    "heat-kernel": lambda subject: HeatKernel.of(subject.mesh),
     "curvature": lambda subject: Curvature.of(subject.mesh, subject.parameters.curvature),
 }

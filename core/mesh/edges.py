@@ -1,7 +1,9 @@
-"""The edges of a welded mesh, and the two triangles that meet at each."""
+"""The edges of a welded mesh, the two triangles that meet at each, and what is connected by them."""
 
 import numpy as np
 from jaxtyping import Int
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 
 def edges_of(corners: Int[np.ndarray, "columns 3"]) -> tuple[Int[np.ndarray, "E 2"], Int[np.ndarray, "columns 3"]]:
@@ -24,3 +26,9 @@ def hinges(corners: Int[np.ndarray, "columns 3"]) -> Int[np.ndarray, "hinges 4"]
     triangle, corner = first // 3, first % 3
     a, b = corners[triangle, (corner + 1) % 3], corners[triangle, (corner + 2) % 3]
     return np.stack([a, b, flat[first], flat[second]], axis=1).astype(np.int64)
+
+
+def pieces(edges: Int[np.ndarray, "E 2"], points: int) -> Int[np.ndarray, "points"]:
+    """The connected piece, from 0, that each point is in."""
+    joined = coo_array((np.ones(len(edges)), edges.T), shape=(points, points))
+    return np.asarray(connected_components(joined, directed=False)[1], np.int64)
