@@ -8,7 +8,7 @@ where the data are.
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float, Float32, Int, UInt16
+from jaxtyping import Float32, Int, UInt16
 
 from core import kernels
 from core.kernels import SHIFT
@@ -34,8 +34,29 @@ class Coding:
     ) -> UInt16[np.ndarray, "columns frames"]:
         """The codes of values ≥ 0, written into `out` where it is given; larger values never have smaller codes."""
         codes = np.empty(values.shape, np.uint16) if out is None else out
-        kernels.encode(values, np.float32(self.gain), np.int32(LOWEST), codes)
+        kernels.encode(values.view(np.int32), self._lowest, codes)
         return codes
+
+    def read(
+        self,
+        values: Float32[np.ndarray, "columns frames"],
+        noise: Float32[np.ndarray, "columns"],
+        floor: int,
+        out: UInt16[np.ndarray, "columns frames"],
+        histogram: Int[np.ndarray, "codes"],
+    ) -> tuple[float, int]:
+        """Encode values ≥ 0 and add their codes to the histogram, those below `floor` as code 0.
+
+        Returns the largest value, and how many are above their column's noise.
+        """
+        bits, limits = values.view(np.int32), noise.view(np.int32)
+        largest, above = kernels.read_tile(bits, limits, self._lowest, np.int32(floor), out, histogram)
+        return float(np.int32(largest).view(np.float32)), int(above)
+
+    @property
+    def _lowest(self) -> np.int32:
+        """The leading bits of 2⁻¹² / gain: a power of two moves the exponent alone."""
+        return np.int32(LOWEST - int(np.log2(self.gain)) * 2 ** (23 - SHIFT))
 
     def decode(self, position: float) -> float:
         """The value at a position between codes: `decode(c)` is the least value of code c, c ≥ 1; `decode(0)` is 0."""
@@ -51,6 +72,10 @@ class Coding:
         bits = np.asarray(above, np.float32).view(np.int32).astype(np.int64)
         nearest = (bits + 2 ** (SHIFT - 1)) // 2**SHIFT - LOWEST
         return np.asarray(np.clip(nearest - 1, 0, CODES - 2), np.uint16)
+
+    def tells_percentile(self, histogram: Int[np.ndarray, "codes"], percent: float = PERCENTILE) -> bool:
+        """Whether the percentile is above code 0, which may stand for all codes below a floor."""
+        return int(histogram[0]) <= (int(histogram.sum()) - 1) * percent / 100
 
     def percentile(self, histogram: Int[np.ndarray, "codes"], percent: float = PERCENTILE) -> float:
         """The value that `percent` of all values do not exceed, as `np.percentile` defines it.
@@ -68,7 +93,7 @@ def normaliser(
     rule: str | float,
     coding: Coding,
     histogram: Int[np.ndarray, "codes"],
-    largest: Float[np.ndarray, "frames"],
+    largest: float,
     share_above_noise: float,
 ) -> float:
     """The strain that counts as 1: the 99.9th percentile, the largest, a given number, or 1 (`none`).
@@ -81,5 +106,5 @@ def normaliser(
     if rule == "p99.9" and share_above_noise > 1 - PERCENTILE / 100:
         return coding.percentile(histogram)
     if rule in {"p99.9", "max"}:
-        return float(largest.max())
+        return largest
     return 1.0 if rule == "none" else float(rule)

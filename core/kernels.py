@@ -4,8 +4,6 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from core.descriptors.kernels import FAST
-
 Bits = NDArray[np.int32]
 Floats = NDArray[np.float32]
 Codes = NDArray[np.uint16]
@@ -16,50 +14,60 @@ SHIFT = 11
 """Bits of a float32 that a code leaves out: 12 of the 23 of its mantissa stay."""
 
 
-@njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
-def encode(tile: Floats, gain: np.float32, lowest: np.int32, codes: Codes) -> None:
-    """codes[t, f]: the leading bits of gain · tile[t, f], from `lowest` on, held within 16 bits."""
+@njit(nogil=True, cache=True, inline="always")
+def _encode_row(bits: Bits, lowest: np.int32, codes: Codes) -> None:
+    for f in range(bits.size):
+        code = np.int32(np.int32(bits[f] >> SHIFT) - lowest)
+        codes[f] = np.uint16(min(max(code, np.int32(0)), np.int32(65535)))
+
+
+@njit(nogil=True, cache=True)
+def encode(tile: Bits, lowest: np.int32, codes: Codes) -> None:
+    """codes[t, f]: the leading bits of a float32 ≥ 0, given as the integer they spell, from `lowest` on, in 16 bits."""
     for t in range(tile.shape[0]):
-        row, out = tile[t], codes[t]
-        for f in range(row.size):
-            bits = np.int32(np.float32(row[f] * gain).view(np.int32))
-            code = np.int32(np.int32(bits >> SHIFT) - lowest)
-            out[f] = np.uint16(min(max(code, np.int32(0)), np.int32(65535)))
+        _encode_row(tile[t], lowest, codes[t])
 
 
 @njit(nogil=True, cache=True)
-def add_histogram(codes: Codes, histogram: NDArray[np.int64]) -> None:
-    """histogram[c] += how often code c occurs."""
-    for t in range(codes.shape[0]):
-        for f in range(codes.shape[1]):
-            histogram[codes[t, f]] += 1
-
-
-@njit(nogil=True, cache=True)
-def largest_and_above(tile: Bits, noise: Bits, largest: Bits, above: Bits) -> None:
-    """Per frame, the largest value and how many are above their column's noise.
+def read_tile(
+    tile: Bits, noise: Bits, lowest: np.int32, floor: np.int32, codes: Codes, histogram: Bits
+) -> tuple[int, int]:
+    """Encode a tile and count its codes from `floor` on, all below as 0; its largest value, and how many are noise's.
 
     Values ≥ 0 are given as the integers that their bits spell, which rise with them: the maximum of integers
-    becomes one instruction, that of floats, for the sake of NaN, does not.
+    becomes one instruction, that of floats, for the sake of NaN, does not. Counting one by one is what costs, and
+    few rows reach the floor. Returns the largest value's bits and the number of values above their row's noise.
     """
+    largest, above, counted = 0, 0, 0
     for t in range(tile.shape[0]):
-        row, limit = tile[t], noise[t]
+        row, limit, out = tile[t], noise[t], codes[t]
+        _encode_row(row, lowest, out)
+        top, more = np.int32(0), np.int32(0)
         for f in range(row.size):
-            largest[f] = max(row[f], largest[f])
-            above[f] -= np.int32(np.int32(limit - row[f]) >> 31)
+            top = max(top, row[f])
+            more = np.int32(more - np.int32(np.int32(limit - row[f]) >> 31))
+        largest = max(largest, int(top))
+        above += int(more)
+        if np.int32(top >> SHIFT) - lowest >= floor:
+            for f in range(out.size):
+                if out[f] >= floor:
+                    histogram[out[f]] += 1
+                    counted += 1
+    histogram[0] += tile.size - counted
+    return largest, above
 
 
 @njit(nogil=True, cache=True)
 def digitize(codes: Codes, edges: Codes, bins: Bins) -> None:
-    """bins[t, f] = how many edges codes[t, f] is above."""
+    """bins[t, f] = how many edges codes[t, f] is above; `edges` come in threes, so that bins are passed over less."""
     for t in range(codes.shape[0]):
         row, out = codes[t], bins[t]
         for f in range(row.size):
             out[f] = 0
-        for i in range(edges.size):
-            edge = edges[i]
+        for i in range(0, edges.size, 3):
+            first, second, third = edges[i], edges[i + 1], edges[i + 2]
             for f in range(row.size):
-                out[f] += np.uint8(row[f] > edge)
+                out[f] += np.uint8(row[f] > first) + np.uint8(row[f] > second) + np.uint8(row[f] > third)
 
 
 @njit(nogil=True, cache=True)

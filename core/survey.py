@@ -23,11 +23,11 @@ STILL_SHARE = 1e-6
 
 @dataclass(frozen=True)
 class Page:
-    """One block of frames, measured: codes where they are kept, and what is summed over the take."""
+    """One block of frames, measured: codes where they are kept, and what is summed or compared over the take."""
 
     codes: UInt16[np.ndarray, "columns frames"] | None
     histogram: Int[np.ndarray, "codes"]
-    largest: Float32[np.ndarray, "frames"]
+    largest: float
     above_noise: int
     widest: float
     described: tuple[np.ndarray, np.ndarray]
@@ -35,12 +35,13 @@ class Page:
 
 @dataclass(frozen=True)
 class Surveyor:
-    """Measures a block of frames. Safe from several threads."""
+    """Measures a block of frames. Safe from several threads. Codes below `floor` are not told apart in histograms."""
 
     animation: Animation
     body: Body
     reach: float
     coding: Coding
+    floor: int
     noise: Float32[np.ndarray, "columns"]
     keep_codes: bool
     projections: Basis | None
@@ -48,22 +49,22 @@ class Surveyor:
     def measure(self, block: Block) -> Page:
         """Draw the block, and read every tile of its strain while it is in the cache."""
         vertices = draw(self.animation, block)
-        means, histogram = self.body.patches.empty(len(vertices)), np.zeros(CODES, np.int64)
-        largest, above = np.zeros((2, len(vertices)), np.int32)
+        means, histogram = self.body.patches.empty(len(vertices)), np.zeros(CODES, np.int32)
+        largest, above = 0.0, 0
         kept = np.empty((self.body.surface.columns if self.keep_codes else 0, len(vertices)), np.uint16)
         for columns, tile in self.body.surface.tiles(vertices):
             if self.body.patches.patches:
                 self.body.patches.add(columns, tile, means)
-            kernels.largest_and_above(tile.view(np.int32), self.noise[columns].view(np.int32), largest, above)
-            codes = self.coding.encode(tile, kept[columns] if self.keep_codes else None)
-            kernels.add_histogram(codes, histogram)
+            codes = kept[columns] if self.keep_codes else np.empty(tile.shape, np.uint16)
+            most, more = self.coding.read(tile, self.noise[columns], self.floor, codes, histogram)
+            largest, above = max(largest, most), above + more
         apart = self.body.pairs.measure(vertices)
         described = (means.T, apart)
         if self.projections is not None:
             described = (self.projections[0].project(means.T), self.projections[1].project(apart))
         widest = float(np.abs(apart).max(initial=0))
         kept_codes = kept if self.keep_codes else None
-        return Page(kept_codes, histogram, largest.view(np.float32), int(above.sum()), widest, described)
+        return Page(kept_codes, histogram, largest, above, widest, described)
 
     def codes(self, block: Block) -> UInt16[np.ndarray, "columns frames"]:
         """The codes of the block, drawn again."""
@@ -76,13 +77,13 @@ class Surveyor:
 
 @dataclass(frozen=True)
 class Survey:
-    """The whole take, measured. `largest` is the largest strain of each frame, `widest` the largest pair distance."""
+    """The whole take, measured. `largest` is the largest strain, `widest` the largest change of a pair distance."""
 
     surveyor: Surveyor
     blocks: list[Block]
     codes: list[UInt16[np.ndarray, "columns _"]] | None
     histogram: Int[np.ndarray, "codes"]
-    largest: Float32[np.ndarray, "frames"]
+    largest: float
     above_noise: int
     widest: float
     described: tuple[np.ndarray, np.ndarray]
@@ -110,6 +111,7 @@ class Survey:
         From the codes where they were kept, else from the vertices, drawn once more.
         """
         edges = self.surveyor.coding.edges(scale, levels)
+        edges = np.concatenate([edges, np.full(-len(edges) % 3, CODES - 1, np.uint16)])  # which no code is above
 
         def digitized(source: Block | np.ndarray) -> np.ndarray:
             codes = self.surveyor.codes(source) if isinstance(source, tuple) else source
@@ -126,18 +128,27 @@ def survey(
 ) -> Survey:
     """Measure every frame once. The codes are kept where all of them fit into `memory_bytes`."""
     glance = Glance.at(animation, body.surface)
+    coding = Coding.around(glance.strain)
     surveyor = Surveyor(
         animation,
         body,
         glance.reach,
-        Coding.around(glance.strain),
+        coding,
+        int(coding.encode(np.full((1, 1), glance.common, np.float32))[0, 0]),
         body.surface.noise(glance.reach),
         2 * animation.frames * body.surface.columns <= memory_bytes,
         basis(animation, body, threads, progress),
     )
     blocks = blocks_of(animation.frames, frames_per_block(animation.vertex_count))
-    pages = map_blocks(surveyor.measure, blocks, threads, progress=progress, stage="strain", total=len(blocks))
-    return _bound(surveyor, blocks, pages)
+
+    def taken(by: Surveyor) -> Survey:
+        pages = map_blocks(by.measure, blocks, threads, progress=progress, stage="strain", total=len(blocks))
+        return _bound(by, blocks, pages)
+
+    take = taken(surveyor)
+    if surveyor.floor == 0 or coding.tells_percentile(take.histogram):
+        return take
+    return taken(replace(surveyor, floor=0))  # the frames looked at were nothing like the rest
 
 
 def _bound(surveyor: Surveyor, blocks: list[Block], pages: Iterable[Page]) -> Survey:
@@ -153,7 +164,7 @@ def _bound(surveyor: Surveyor, blocks: list[Block], pages: Iterable[Page]) -> Su
         blocks,
         [page.codes for page in kept if page.codes is not None] if surveyor.keep_codes else None,
         histogram,
-        np.concatenate([page.largest for page in kept]),
+        max(page.largest for page in kept),
         above,
         widest,
         (np.concatenate([page.described[0] for page in kept]), np.concatenate([page.described[1] for page in kept])),

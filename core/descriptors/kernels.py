@@ -216,3 +216,15 @@ def add_weighted(tile: Floats, weights: Floats, groups: Indices, sums: Floats) -
         row, weight = sums[groups[t]], weights[t]
         for f in range(tile.shape[1]):
             row[f] += weight * tile[t, f]
+
+
+@njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
+def pair_changes(
+    rows: Floats, first: Indices, second: Indices, at_rest: Floats, per_size: np.float32, changes: Floats
+) -> None:
+    """changes[p, f] = (distance of the ends of pair p in frame f − at_rest[p]) · per_size."""
+    for p in range(first.size):
+        one, other, out, rest = rows[first[p]], rows[second[p]], changes[p], at_rest[p]
+        for f in range(out.size):
+            x, y, z = one[0, f] - other[0, f], one[1, f] - other[1, f], one[2, f] - other[2, f]
+            out[f] = (np.sqrt(x * x + y * y + z * z) - rest) * per_size

@@ -5,10 +5,12 @@ motion all the same. The pairs are chosen once, from the rest shape alone.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Float, Int, Int32
 
+from core.descriptors import kernels
 from core.descriptors.farthest_points import spread
 
 POINTS = 150
@@ -42,9 +44,19 @@ class PairDistances:
 
     def measure(self, block: Float[np.ndarray, "frames V 3"]) -> Float[np.ndarray, "frames pairs"]:
         """(distance − distance at rest) / size, float32, no unit: zero for a body that only moves rigidly."""
-        apart = block[:, self.first] - block[:, self.second]
-        distance = np.sqrt(np.einsum("fpc,fpc->fp", apart, apart))
-        return np.asarray((distance - self.at_rest) / np.float32(self.size or 1.0), np.float32)
+        members, first, second = self._ends
+        rows = np.empty((len(members), 3, len(block)), np.float32)
+        kernels.gather(block, members, rows)
+        changes = np.empty((len(first), len(block)), np.float32)
+        kernels.pair_changes(rows, first, second, self.at_rest, np.float32(1 / (self.size or 1.0)), changes)
+        return changes.T
+
+    @cached_property
+    def _ends(self) -> tuple[Int32[np.ndarray, "n"], Int32[np.ndarray, "pairs"], Int32[np.ndarray, "pairs"]]:
+        """The vertices that are in any pair, and both ends of every pair among them."""
+        members, place = np.unique(np.concatenate([self.first, self.second]), return_inverse=True)
+        first, second = place.astype(np.int32).reshape(2, -1)
+        return members.astype(np.int32), first, second
 
 
 def _pairs(distance: Float[np.ndarray, "n n"]) -> tuple[Int[np.ndarray, "pairs"], Int[np.ndarray, "pairs"]]:

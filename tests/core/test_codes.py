@@ -32,7 +32,7 @@ def test_the_percentile_is_numpys_to_a_ten_thousandth(size):
     """Whatever the unit of the data is."""
     values = (size * np.random.default_rng(0).gamma(2.0, size=(300, 400))).astype(np.float32)
     coding = Coding.around(float(values[:, ::40].max()))
-    found = normaliser("p99.9", coding, histogram(coding, values), values.max(axis=0), 1.0)
+    found = normaliser("p99.9", coding, histogram(coding, values), float(values.max()), 1.0)
     assert found == pytest.approx(np.percentile(values, 99.9), rel=5e-5)
 
 
@@ -45,7 +45,7 @@ def test_the_percentile_of_equal_values_is_that_value():
 
 def test_the_other_rules_of_normalising():
     """The largest, a number, none; 1 for noise, and the largest where strain is too rare for a percentile."""
-    coding, counts, largest = Coding(1.0), np.ones(CODES, int), np.float32([0.2, 0.7])
+    coding, counts, largest = Coding(1.0), np.ones(CODES, int), 0.7
     assert normaliser("max", coding, counts, largest, 1.0) == pytest.approx(0.7)
     assert normaliser(0.25, coding, counts, largest, 1.0) == 0.25
     assert normaliser("none", coding, counts, largest, 1.0) == 1.0
