@@ -14,6 +14,7 @@ HARMLESS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_", "
 """Beginnings of the names of extensions that change no vertex: images and materials are never read."""
 
 READ = {
+    "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "KHR_animation_pointer",
     "KHR_draco_mesh_compression",

@@ -1,6 +1,6 @@
 """All that is drawn of a scene, as one body: vertices, triangles, and what moves them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -8,9 +8,10 @@ from jaxtyping import Float, Int
 from core.errors import InvalidModel
 from core.formats.gltf.accessors import Accessors
 from core.formats.gltf.channels import morph_targets
-from core.formats.gltf.document import Document, unsupported
+from core.formats.gltf.document import Document
 from core.formats.gltf.entry import Entry
 from core.formats.gltf.influences import Influences
+from core.formats.gltf.instances import Instances, read_instances
 from core.formats.gltf.nodes import NodeGraph
 from core.formats.gltf.primitives import Outline, Primitive, outlines, read_primitive
 from core.formats.gltf.skins import IDENTITY, Skin, read_skin
@@ -32,8 +33,8 @@ class Figure:
 
     Vertex v is moved by the bones `bones[first[v]:first[v + 1]]` with `weights` of sum 1. A bone is a node and the
     matrix (3 x 4) that takes the vertex into its frame: a joint of a skin and its inverse bind matrix, or the
-    node of a rigid mesh and the identity. `skins` are the ranges [start, stop) of bones that are skins; `parts` are
-    all vertices in order, those with morph targets apart from those without.
+    node of a rigid mesh and the identity, or the place of an instance. `skins` are the ranges [start, stop) of bones that are skins; `parts` are
+    all vertices in order, those with morph targets apart from those without. `instanced`: a node draws more than one.
     """
 
     positions: Float[np.ndarray, "V 3"]
@@ -45,6 +46,7 @@ class Figure:
     bone_bind: Float[np.ndarray, "B 12"]
     skins: tuple[tuple[int, int], ...]
     parts: tuple[Part, ...]
+    instanced: bool = False
 
 
 def read_figure(document: Document, accessors: Accessors, graph: NodeGraph, nodes: list[int]) -> Figure | None:
@@ -55,15 +57,16 @@ def read_figure(document: Document, accessors: Accessors, graph: NodeGraph, node
     drawn = _drawn(document, accessors, graph, nodes)
     if not drawn:
         return None
-    if not any(outline for _, _, outline in drawn):
+    if not any(found and instances.count for _, _, found, instances in drawn):
         raise InvalidModel(
             "no-mesh", "The meshes of the file have no triangles. Export the surface, not points or lines."
         )
     body = _Body(document, accessors)
-    for node, entry, found in drawn:
-        for outline in found:
-            body.add(node, entry, outline)
-    return body.figure()
+    for node, entry, found, instances in drawn:
+        for place in instances.places(accessors) if found else ():
+            for outline in found:
+                body.add(node, entry, outline, place)
+    return replace(body.figure(), instanced=any(instances.layouts for *_, instances in drawn))
 
 
 def joints_figure(nodes: Int[np.ndarray, "V"]) -> Figure:
@@ -84,29 +87,29 @@ def joints_figure(nodes: Int[np.ndarray, "V"]) -> Figure:
 
 def _drawn(
     document: Document, accessors: Accessors, graph: NodeGraph, nodes: list[int]
-) -> list[tuple[int, Entry, list[Outline]]]:
+) -> list[tuple[int, Entry, list[Outline], Instances]]:
     """Every node with a mesh and its primitives, counted after instancing and before anything is decoded."""
-    found: list[tuple[int, Entry, list[Outline]]] = []
+    found: list[tuple[int, Entry, list[Outline], Instances]] = []
     known: dict[int, list[Outline]] = {}
     primitives = vertices = triangles = moved = 0
     for node in nodes:
         entry = graph.entries[node]
         if "mesh" not in entry:
             continue
-        if entry.extension("EXT_mesh_gpu_instancing") is not None:
-            raise unsupported("EXT_mesh_gpu_instancing", entry.pointer)
         mesh = entry.index("mesh", len(document.meshes), "meshes")
-        document.limits.check("max_primitives", primitives + len(document.meshes[mesh].values("primitives")))
+        instances = read_instances(document, accessors, entry)
+        times = instances.count
+        document.limits.check("max_primitives", primitives + times * len(document.meshes[mesh].values("primitives")))
         if mesh not in known:
             known[mesh] = outlines(document, accessors, document.meshes[mesh])
-        primitives += len(known[mesh])
-        vertices += sum(outline.vertices for outline in known[mesh])
-        triangles += sum(outline.triangles for outline in known[mesh])
-        moved += sum(outline.vertices * len(outline.targets) for outline in known[mesh])
+        primitives += times * len(known[mesh])
+        vertices += times * sum(outline.vertices for outline in known[mesh])
+        triangles += times * sum(outline.triangles for outline in known[mesh])
+        moved += times * sum(outline.vertices * len(outline.targets) for outline in known[mesh])
         document.limits.check("max_vertices", vertices)
         document.limits.check("max_triangles", triangles)
         document.limits.check("max_target_vertices", moved)
-        found.append((node, entry, known[mesh]))
+        found.append((node, entry, known[mesh], instances))
     return found
 
 
@@ -129,8 +132,8 @@ class _Body:
         self._parts: list[Part] = []
         self._vertices = 0
 
-    def add(self, node: int, entry: Entry, outline: Outline) -> None:
-        """One primitive of the mesh of `node`."""
+    def add(self, node: int, entry: Entry, outline: Outline, instance: Float[np.ndarray, "12"]) -> None:
+        """One primitive of the mesh of `node`, which `instance` takes into the node's own space."""
         place = outline.entry.pointer
         if place not in self._decoded:
             self._decoded[place] = read_primitive(self._document, self._accessors, outline)
@@ -145,7 +148,7 @@ class _Body:
         else:
             if "skin" in entry:
                 self._document.notices.add("skin-unused", f"{place} has no joints; it moves with its node.")
-            self._add_rigid(node, len(primitive.positions))
+            self._add_rigid(node, len(primitive.positions), instance)
 
     def figure(self) -> Figure:
         """All that was added."""
@@ -169,9 +172,9 @@ class _Body:
         else:
             self._parts.append(Part(start, self._vertices))
 
-    def _add_rigid(self, node: int, vertices: int) -> None:
+    def _add_rigid(self, node: int, vertices: int, instance: Float[np.ndarray, "12"]) -> None:
         self._counts.append(np.ones(vertices, np.int64))
-        self._joints.append(np.full(vertices, self._new_bones(np.array([node]), IDENTITY[None])))
+        self._joints.append(np.full(vertices, self._new_bones(np.array([node]), instance[None])))
         self._weights.append(np.ones(vertices))
 
     def _add_skinned(self, entry: Entry, place: Entry, influences: Influences) -> None:

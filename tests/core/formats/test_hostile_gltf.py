@@ -127,7 +127,6 @@ STRUCTURE: list[Row] = [
     ("minVersion 2.1", _set("asset", "minVersion", "2.1"), "unsupported-gltf-version", "/asset/version"),
     ("unknown extension", _set("extensionsRequired", ["X_y"]), "unsupported-extension", "/extensionsRequired/0"),
     ("extension is a number", _set("extensionsRequired", [1]), "unsupported-extension", "/extensionsRequired/0"),
-    ("GPU instancing", _node(0, extensions={"EXT_mesh_gpu_instancing": {}}), "unsupported-extension", "/nodes/0"),
     ("accessors is null", _set("accessors", None), "invalid-gltf", "/accessors"),
     ("nodes is an object", _set("nodes", {}), "invalid-gltf", "/nodes"),
     ("a node is a number", _set("nodes", 0, 7), "invalid-gltf", "/nodes/0"),
