@@ -1,4 +1,4 @@
-"""Clips of a glTF: the take cut channel by channel, clip by clip."""
+"""Clips of a glTF: each take cut channel by channel, clip by clip."""
 
 from collections.abc import Iterator, Sequence
 
@@ -8,28 +8,31 @@ from core.formats.clips.cutting import Part, cut, spanning
 from core.formats.clips.options import ClipOptions
 from core.formats.clips.plan import Clip, plan
 from core.formats.clips.replacement import Replacement
-from core.formats.gltf.channels import read_channels
-from core.formats.gltf.take import last_key, take_names
+from core.formats.clips.stretches import gltf_stretches
+from core.formats.gltf.take import take_names
 
 
 def planned(file: Replacement, document: SegmentationDocument, options: ClipOptions) -> tuple[Clip, ...]:
-    """The clips of the document's take, with names that no animation has which stays beside them."""
-    take = document.source.take
-    channels = read_channels(file.document, file.accessors, file.document.animations[take])
-    staying = [
-        name
-        for number, name in enumerate(take_names(file.document))
-        if options.files == "one" and not options.animation_only and (options.keep_source or number != take)
-    ]
-    return plan(document, options, last_key(file.accessors, channels), staying)
+    """The clips of the document, with names that no animation has which stays beside them."""
+    stretches = gltf_stretches(file, document)
+    replaced = {stretch.take for stretch in stretches} if not options.keep_source else set()
+    beside = options.files == "one" and not options.animation_only
+    staying = [n for number, n in enumerate(take_names(file.document)) if beside and number not in replaced]
+    return plan(document, options, stretches, staying)
 
 
-def gltf_clips(file: Replacement, take: int, clips: Sequence[Clip], options: ClipOptions) -> Iterator[bytes]:
-    """The GLB, piece by piece."""
-    everything = options.animation_only or options.files == "separate"
-    kept_take = options.keep_source and not everything
-    removed = list(range(len(file.document.animations))) if everything else [take] * (not kept_take)
-    file.remove(removed, take)
+def gltf_clips(file: Replacement, clips: Sequence[Clip], options: ClipOptions, cut_takes: set[int]) -> Iterator[bytes]:
+    """The GLB, piece by piece; clips take the places of the takes that they are of."""
+    alone = options.animation_only or options.files == "separate"
+    everything = set(range(len(file.document.animations)))
+    file.remove(everything if alone else set() if options.keep_source else cut_takes)
+    for take in sorted({clip.take for clip in clips}):
+        _put(file, take, [clip for clip in clips if clip.take == take], options)
+    return file.pieces()
+
+
+def _put(file: Replacement, take: int, clips: list[Clip], options: ClipOptions) -> None:
+    """The clips of one take."""
     tracks = [Tracks() for _ in clips]
     reaching = [False] * len(clips)
     first: TakeChannel | None = None
@@ -43,8 +46,7 @@ def gltf_clips(file: Replacement, take: int, clips: Sequence[Clip], options: Cli
         if first is not None and not reaching[number]:
             _reach(file, tracks[number], first, clip, options)
     source = file.document.animations[take].value
-    file.add([track.animation(clip.name, source, clip.extras) for track, clip in zip(tracks, clips, strict=True)])
-    return file.pieces()
+    file.add(take, [t.animation(clip.name, source, clip.extras) for t, clip in zip(tracks, clips, strict=True)])
 
 
 def _reach(file: Replacement, tracks: Tracks, channel: TakeChannel, clip: Clip, options: ClipOptions) -> None:

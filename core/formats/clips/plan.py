@@ -1,6 +1,6 @@
 """Which clips there will be: their names and their seconds. Light: no NumPy."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,13 +11,29 @@ from core.formats.clips.options import ClipOptions
 
 
 @dataclass(frozen=True)
-class Clip:
-    """Frames [start_frame, end_frame) of the take, and its seconds [start, end], handles included.
+class Stretch:
+    """Frames [first, end) of the result are of one take, the first of them at second `start` of its clock.
 
-    Seconds are counted from the take's frame 0. `extras` go with the clip into the file.
+    The last of them stands until second `until`, which need not be on a frame; the take has seconds [0, duration].
+    """
+
+    take: int
+    first: int
+    end: int
+    start: float
+    until: float
+    duration: float
+
+
+@dataclass(frozen=True)
+class Clip:
+    """Frames [start_frame, end_frame) of the result, and seconds [start, end] of the take, handles included.
+
+    `extras` go with the clip into the file.
     """
 
     name: str
+    take: int
     start_frame: int
     end_frame: int
     start: float
@@ -25,64 +41,76 @@ class Clip:
     extras: dict[str, Any]
 
 
+@dataclass(frozen=True)
+class _Piece:
+    """What of a segment lies in one take, and its seconds there."""
+
+    segment: Segment
+    stretch: Stretch
+    frames: Interval
+    start: float
+    end: float
+
+
 def plan(
-    document: SegmentationDocument, options: ClipOptions, duration: float, taken: Iterable[str] = ()
+    document: SegmentationDocument, options: ClipOptions, stretches: Sequence[Stretch], taken: Iterable[str] = ()
 ) -> tuple[Clip, ...]:
-    """The clips of a take that is `duration` seconds long, beside animations whose names are `taken`.
+    """The clips of a result, beside animations whose names are `taken`.
 
     A clip ends where the next segment begins, so that one clip's last pose is the next one's first. Raises
     `ParameterError` for a motion that there is not, and `no-clips` where nothing is left.
     """
     looping, discarded = _known(document, "loop", options.looping()), _known(document, "discard", options.discarded())
-    kept = [
-        (segment, part)
+    pieces = [
+        piece
         for segment in document.segments
         if segment.name not in discarded
         for part in _parts(segment, options.split_repeats)
-        if _seconds(document, part, duration)[1] - _seconds(document, part, duration)[0] >= options.min_seconds
+        for piece in _pieces(document, segment, part, stretches)
+        if piece.end - piece.start >= options.min_seconds
     ]
-    if not kept:
+    if not pieces:
         raise ParameterError(
             "no-clips",
             "No clip is left: every segment is discarded, or shorter than min_seconds. Ask for less to be left out.",
             parameter="discard" if discarded else "min_seconds",
         )
-    names = numbered(((segment.name, segment.name in looping) for segment, _ in kept), taken)
-    return tuple(
-        _clip(document, options, duration, name, segment, part)
-        for name, (segment, part) in zip(names, kept, strict=True)
-    )
+    names = numbered(((piece.segment.name, piece.segment.name in looping) for piece in pieces), taken)
+    return tuple(_clip(document, options, name, piece) for name, piece in zip(names, pieces, strict=True))
 
 
-def _clip(
-    document: SegmentationDocument, options: ClipOptions, duration: float, name: str, segment: Segment, part: Interval
-) -> Clip:
-    start, end = _seconds(document, part, duration)
-    origin = document.source.start_seconds
+def _clip(document: SegmentationDocument, options: ClipOptions, name: str, piece: _Piece) -> Clip:
     extras = {
         "segmentation": document.id,
-        "motion": segment.name,
-        "start": part.start,
-        "end": part.end,
-        "start_seconds": round(origin + start, 6),
-        "end_seconds": round(origin + end, 6),
+        "motion": piece.segment.name,
+        "start": piece.frames.start,
+        "end": piece.frames.end,
+        "start_seconds": round(piece.start, 6),
+        "end_seconds": round(piece.end, 6),
+        "handles_seconds": options.handles_seconds or None,
     }
-    if options.handles_seconds:
-        extras["handles_seconds"] = options.handles_seconds
     return Clip(
         name=name,
-        start_frame=part.start,
-        end_frame=part.end,
-        start=max(start - options.handles_seconds, 0.0),
-        end=min(end + options.handles_seconds, duration),
+        take=piece.stretch.take,
+        start_frame=piece.frames.start,
+        end_frame=piece.frames.end,
+        start=max(piece.start - options.handles_seconds, 0.0),
+        end=min(piece.end + options.handles_seconds, max(piece.stretch.duration, piece.end)),
         extras={key: value for key, value in extras.items() if value is not None},
     )
 
 
-def _seconds(document: SegmentationDocument, part: Interval, duration: float) -> tuple[float, float]:
-    """[start / rate, end / rate], the last one to the end of the take, which need not be on a frame."""
-    end = duration if part.end >= document.frames else min(part.end / document.frame_rate, duration)
-    return part.start / document.frame_rate, end
+def _pieces(
+    document: SegmentationDocument, segment: Segment, part: Interval, stretches: Sequence[Stretch]
+) -> Iterator[_Piece]:
+    """A part of a segment in each take that it touches."""
+    rate = document.frame_rate
+    for stretch in stretches:
+        start, end = max(part.start, stretch.first), min(part.end, stretch.end)
+        if start < end:
+            begin = stretch.start + (start - stretch.first) / rate
+            until = stretch.until if end == stretch.end else stretch.start + (end - stretch.first) / rate
+            yield _Piece(segment, stretch, Interval(start=start, end=end), begin, min(until, stretch.until))
 
 
 def _parts(segment: Segment, split: bool) -> tuple[Interval, ...]:

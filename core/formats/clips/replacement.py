@@ -23,7 +23,7 @@ UNUSED = {"componentType": 5126, "count": 1, "type": "SCALAR"}
 
 
 class Replacement:
-    """`removed` animations go, `add` puts others in where the first of them was, `pieces` are the GLB.
+    """`remove` takes animations out, `add` puts others in, `pieces` are the GLB.
 
     The file has been read before, so its limits are not asked again.
     """
@@ -38,23 +38,24 @@ class Replacement:
         self._slots: list[int] = []
         self._entries: list[tuple[int, dict[str, Any], bytes | None]] = []
         self._known: dict[tuple[Any, ...], int] = {}
-        self._place = 0
+        self._staying: list[int] = []
+        self._added: dict[int, list[dict[str, Any]]] = {}
         if animation_only:
             without_meshes(self._file)
 
-    def remove(self, removed: list[int], place: int) -> None:
-        """Take animations out by their numbers; clips go where number `place` is."""
+    def remove(self, removed: set[int]) -> None:
+        """Take animations out by their numbers."""
         animations = self._file.json.get("animations", [])
-        gone = [animations[number] for number in removed]
-        self._place = place - sum(number < place for number in removed) + (place not in removed)
-        self._file.json["animations"] = [a for number, a in enumerate(animations) if number not in removed]
+        gone = [animations[number] for number in sorted(removed)]
+        self._staying = [number for number in range(len(animations)) if number not in removed]
+        self._file.json["animations"] = [animations[number] for number in self._staying]
         if not self._bare:
             self._freed = freed_accessors(self._file.json, gone)
             self._slots = self._freed[::-1]
 
-    def add(self, animations: list[dict[str, Any]]) -> None:
-        """Put animations in."""
-        self._file.json["animations"][self._place : self._place] = animations
+    def add(self, take: int, animations: list[dict[str, Any]]) -> None:
+        """Put animations in where the animation `take` was, or after it."""
+        self._added[take] = animations
 
     def window(self, layout: Layout, first: int, count: int) -> int | None:
         """An accessor of `count` elements of another, from number `first` on; None where it cannot be looked into."""
@@ -81,6 +82,7 @@ class Replacement:
         """The GLB."""
         root = self._file.json
         chunk = self._placed()
+        root["animations"] = self._ordered()
         if chunk.length:
             root["buffers"][0]["byteLength"] = chunk.length
         else:
@@ -111,6 +113,15 @@ class Replacement:
             self._entries.append((number, accessor, data))
             self._known[key] = number
         return self._known[key]
+
+    def _ordered(self) -> list[dict[str, Any]]:
+        """Animations that stay and animations put in, in the order of the file's own."""
+        staying = dict(zip(self._staying, self._file.json["animations"], strict=True))
+        return [
+            animation
+            for number in range(len(self.document.animations))
+            for animation in [*([staying[number]] if number in staying else []), *self._added.get(number, [])]
+        ]
 
     def _placed(self) -> BinaryChunk:
         """Write the new accessors into the JSON and their bytes into room that is free."""

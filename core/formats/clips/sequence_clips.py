@@ -34,7 +34,8 @@ def _frames(animation: Animation, clip: Clip) -> Iterator[bytes]:
     handle = round(clip.extras.get("handles_seconds", 0.0) * animation.frame_rate)
     start, stop = max(clip.start_frame - handle, 0), min(clip.end_frame + handle, animation.frames)
     draw = animation.vertices
-    stored = draw.stored if isinstance(draw, VertexSequence) and draw.step == 1 else None
+    plain = isinstance(draw, VertexSequence) and draw.step == 1 and draw.first.is_integer()
+    stored = draw.stored[int(draw.first) :] if isinstance(draw, VertexSequence) and plain else None
     dtype = np.dtype(np.float32) if stored is None else stored.dtype
     yield _header(dtype, (stop - start, animation.vertex_count, 3))
     step = max(BLOCK_BYTES // (animation.vertex_count * 3 * dtype.itemsize), 1)

@@ -9,9 +9,10 @@ from core.document import SegmentationDocument
 from core.formats.clips.gltf_clips import gltf_clips, planned
 from core.formats.clips.key_poses import gltf_key_poses, sequence_key_poses
 from core.formats.clips.options import ClipOptions
-from core.formats.clips.plan import plan
+from core.formats.clips.plan import Clip, Stretch, plan
 from core.formats.clips.replacement import Replacement
 from core.formats.clips.sequence_clips import sequence_clips
+from core.formats.clips.stretches import gltf_stretches
 from core.formats.clips.zip_stream import zipped
 from core.formats.read import main_part, read_animation
 from core.formats.sniffing import SNIFFED, sniff
@@ -38,29 +39,28 @@ def write_clips(parts: Parts, document: SegmentationDocument, options: ClipOptio
     Raises `ParameterError` where the options leave nothing, or name what there is not.
     """
     views = _views(parts)
-    if _is_sequence(views):
+    if not _is_gltf(views):
         animation = _sequence(views, document, scratch)
-        clips = plan(document, options, (animation.frames - 1) / animation.frame_rate)
-        return Written(ZIP, sequence_clips(animation, clips))
+        start = animation.start_seconds
+        last = start + (animation.frames - 1) / animation.frame_rate
+        whole = Stretch(0, 0, animation.frames, start, last, last)
+        return Written(ZIP, sequence_clips(animation, plan(document, options, [whole])))
     file = Replacement(views, animation_only=options.animation_only)
-    gltf = planned(file, document, options)
-    take = document.source.take
+    made = planned(file, document, options)
+    takes = {stretch.take for stretch in gltf_stretches(file, document)}
     if options.files == "one":
-        return Written(GLB, gltf_clips(file, take, gltf, options))
-    each = (
-        (
-            f"{clip.name}.glb",
-            gltf_clips(Replacement(views, animation_only=options.animation_only), take, [clip], options),
-        )
-        for clip in gltf
-    )
-    return Written(ZIP, zipped(each, deflated=True))
+        return Written(GLB, gltf_clips(file, made, options, takes))
+
+    def alone(clip: Clip) -> Iterator[bytes]:
+        yield from gltf_clips(Replacement(views, animation_only=options.animation_only), [clip], options, takes)
+
+    return Written(ZIP, zipped(((f"{clip.name}.glb", alone(clip)) for clip in made), deflated=True))
 
 
 def write_key_poses(parts: Parts, document: SegmentationDocument, scratch: Scratch) -> Written:
     """The key-frames as a GLB whose one animation steps from pose to pose; raises `no-key-frames`."""
     views = _views(parts)
-    if _is_sequence(views):
+    if not _is_gltf(views):
         return Written(GLB, sequence_key_poses(_sequence(views, document, scratch), document))
     return Written(GLB, gltf_key_poses(Replacement(views), document))
 
@@ -69,8 +69,8 @@ def _views(parts: Parts) -> dict[str, memoryview]:
     return {name: memoryview(part).toreadonly() for name, part in parts.items()}
 
 
-def _is_sequence(views: dict[str, memoryview]) -> bool:
-    return sniff(bytes(views[main_part(views)][:SNIFFED])) == "npz"
+def _is_gltf(views: dict[str, memoryview]) -> bool:
+    return sniff(bytes(views[main_part(views)][:SNIFFED])) in {"glb", "gltf"}
 
 
 def _sequence(views: dict[str, memoryview], document: SegmentationDocument, scratch: Scratch) -> Animation:
