@@ -11,23 +11,36 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Int, Int32, UInt8
-from scipy.special import xlogy
 
 from core import kernels
 
 
 @dataclass(frozen=True)
-class Pairing:
-    """The bins of frames [n, n + width) and those l frames later, as views (columns, width) of the blocks at hand."""
+class Piece:
+    """`width` frames of one block from `at` on, and as many of a later one from `later_at` on.
 
-    pieces: tuple[tuple[UInt8[np.ndarray, "columns _"], UInt8[np.ndarray, "columns _"]], ...]
+    The blocks are kept whole, for the rows of a view would not be known to lie in one piece when compiled.
+    """
+
+    block: UInt8[np.ndarray, "columns _"]
+    at: int
+    later: UInt8[np.ndarray, "columns _"]
+    later_at: int
+    width: int
+
+
+@dataclass(frozen=True)
+class Pairing:
+    """The bins of some frames and of those l frames later, in the blocks at hand."""
+
+    pieces: tuple[Piece, ...]
     levels: int
 
     def counts(self) -> Int32[np.ndarray, "pairs levels2"]:
         """C_n of every pair in turn, each row a matrix of levels x levels (Eq. 1, times the number of triangles)."""
-        counted = [np.zeros((first.shape[1], self.levels**2), np.int32) for first, _ in self.pieces]
-        for (first, second), counts in zip(self.pieces, counted, strict=True):
-            kernels.count_pairs(first, second, np.int32(self.levels), counts)
+        counted = [np.zeros((piece.width, self.levels**2), np.int32) for piece in self.pieces]
+        for piece, counts in zip(self.pieces, counted, strict=True):
+            kernels.count_pairs(piece.block, piece.at, piece.later, piece.later_at, np.int32(self.levels), counts)
         return np.concatenate(counted)
 
 
@@ -44,7 +57,7 @@ def pairings(blocks: Iterable[UInt8[np.ndarray, "columns _"]], lag: int, levels:
             first = held[0]
             at = block.shape[1] - (behind - lag)
             width = min(first.shape[1] - taken, behind - lag)
-            pieces.append((first[:, taken : taken + width], block[:, at : at + width]))
+            pieces.append(Piece(first, taken, block, at, width))
             taken, behind = taken + width, behind - width
             if taken == first.shape[1]:
                 held.popleft()
@@ -69,5 +82,6 @@ def sliding_sums(counts: Iterable[Int[np.ndarray, "_ levels2"]], length: int) ->
 def joint_entropy(counts: Int[np.ndarray, "frames levels2"]) -> Float[np.ndarray, "frames"]:
     """H = −Σ P ln P with P = counts / Σ counts (Eq. 2), in nats: 0 to ln B². Nothing counted: 0."""
     total = np.maximum(counts.sum(axis=1), 1).astype(np.float64)
-    entropy = np.log(total) - xlogy(counts, counts).sum(axis=1) / total
+    terms = counts * np.log(np.maximum(counts, 1))  # 0 ln 0 = 0
+    entropy = np.log(total) - terms.sum(axis=1) / total
     return np.asarray(np.maximum(entropy, 0.0))

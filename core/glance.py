@@ -9,9 +9,9 @@ from core.descriptors.projection import sample_frames
 from core.drawing import draw_frames, largest_coordinate
 from core.surfaces import Surface
 
-FRAMES = 64
+FRAMES = 32
 LEAST_FRAMES = 8
-SHARE = 20
+SHARE = 40
 """One frame in so many is looked at, within these bounds, for each costs as much as any other."""
 AT_ONCE = 8
 THINNED = 8
@@ -28,7 +28,7 @@ class Glance:
 
     @classmethod
     def at(cls, animation: Animation, surface: Surface) -> "Glance":
-        """8 to 64 frames, evenly spaced; `common` is from every 8th column."""
+        """8 to 32 frames, evenly spaced; `common` is from every 8th column."""
         reach = strain = 0.0
         thinned: list[np.ndarray] = []
         frames = sample_frames(animation.frames, min(max(animation.frames // SHARE, LEAST_FRAMES), FRAMES))

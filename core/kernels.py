@@ -71,12 +71,12 @@ def digitize(codes: Codes, edges: Codes, bins: Bins) -> None:
 
 
 @njit(nogil=True, cache=True)
-def count_pairs(first: Bins, second: Bins, levels: np.int32, counts: Bits) -> None:
-    """counts[f, i · levels + j] += triangles in bin i of first[:, f] and bin j of second[:, f]."""
-    flat, cells = counts.reshape(-1), np.int32(counts.shape[1])
-    place = np.empty(first.shape[1], np.int32)
+def count_pairs(first: Bins, at: int, second: Bins, second_at: int, levels: np.int32, counts: Bits) -> None:
+    """counts[f, i · levels + j] += triangles in bin i of first[:, at + f] and bin j of second[:, second_at + f]."""
+    flat, cells, width = counts.reshape(-1), np.int32(counts.shape[1]), counts.shape[0]
+    place = np.empty(width, np.int32)
     for t in range(first.shape[0]):
-        here, there = first[t], second[t]
+        here, there = first[t][at : at + width], second[t][second_at : second_at + width]
         for f in range(place.size):
             place[f] = np.int32(f) * cells + np.int32(here[f]) * levels + np.int32(there[f])
         for f in range(place.size):
