@@ -1,5 +1,6 @@
 """Slow, obvious twins of what the core computes, in float64 and plain loops."""
 
+from collections import Counter
 from itertools import pairwise
 
 import numpy as np
@@ -212,3 +213,75 @@ def least_dissimilarity(values, segments, shortest):
     """The least of it over every segmentation into so many segments."""
     cuts = compositions(len(values), shortest, len(values))
     return min(dissimilarity(values, cut) for cut in cuts if len(cut) == segments + 1)
+
+
+# --- curvature, geodesic distance, heat kernel signature ---
+
+
+def curvature(vertices, rest, triangles, kind="gaussian"):
+    """|Δ Σ K A| (frames, T), or |Δ Σ H A| over √A₀, summed over the corners; closed or open, wound one way."""
+    vertices, rest = np.asarray(vertices, np.float64), np.asarray(rest, np.float64)
+    cell = np.zeros(len(rest))
+    for face in triangles:
+        a, b, c = rest[face]
+        cell[face] += np.linalg.norm(np.cross(b - a, c - a)) / 6
+    measure = _angle_defects if kind == "gaussian" else _folds
+    at_rest = measure(rest, triangles)
+    change = np.stack([np.abs((measure(v, triangles) - at_rest)[triangles].sum(axis=1)) for v in vertices])
+    return change if kind == "gaussian" else change / np.sqrt(cell[triangles].sum(axis=1))
+
+
+def _angle_defects(place, triangles):
+    edges = Counter(frozenset(pair) for i, j, k in triangles for pair in ((i, j), (j, k), (k, i)))
+    border = {v for edge, count in edges.items() if count == 1 for v in edge}
+    defect = np.array([np.pi if v in border else 2 * np.pi for v in range(len(place))])
+    for face in triangles:
+        for turn in range(3):
+            at, left, right = place[np.roll(face, turn)]
+            cosine = (left - at) @ (right - at) / np.linalg.norm(left - at) / np.linalg.norm(right - at)
+            defect[face[-turn % 3]] -= np.arccos(np.clip(cosine, -1, 1))
+    return defect
+
+
+def _folds(place, triangles):
+    across = {(i, j): k for face in triangles for i, j, k in (face, np.roll(face, 1), np.roll(face, 2))}
+    total = np.zeros(len(place))
+    for (i, j), k in across.items():
+        if i < j and (j, i) in across:
+            a, b, c, d = place[[i, j, k, across[j, i]]]
+            one, other = np.cross(b - a, c - a), np.cross(d - a, b - a)
+            cosine = one @ other / np.linalg.norm(one) / np.linalg.norm(other)
+            fold = -np.sign(one @ (d - a)) * np.arccos(np.clip(cosine, -1, 1))
+            total[[i, j]] += np.linalg.norm(b - a) * fold / 4
+    return total
+
+
+def path_lengths(place, triangles):
+    """The length of the shortest path of edges between any two points (Floyd 1962); inf where there is none."""
+    place = np.asarray(place, np.float64)
+    length = np.full((len(place), len(place)), np.inf)
+    np.fill_diagonal(length, 0)
+    for face in triangles:
+        for i, j in zip(face, np.roll(face, 1), strict=True):
+            length[i, j] = length[j, i] = np.linalg.norm(place[i] - place[j])
+    for k in range(len(place)):
+        length = np.minimum(length, length[:, k, None] + length[None, k])
+    return length
+
+
+def heat_kernel_signature(place, triangles, times):
+    """h_t (points, times) of every eigenfunction there is."""
+    place = np.asarray(place, np.float64)
+    stiffness, mass = np.zeros((len(place), len(place))), np.zeros(len(place))
+    for face in triangles:
+        for turn in range(3):
+            i, j, k = np.roll(face, turn)
+            u, v = place[j] - place[i], place[k] - place[i]
+            doubled = np.linalg.norm(np.cross(u, v))
+            mass[i] += doubled / 6
+            weight = u @ v / doubled / 2
+            stiffness[[j, k], [k, j]] -= weight
+            stiffness[[j, k], [j, k]] += weight
+    root = np.sqrt(mass)
+    values, modes = np.linalg.eigh(stiffness / np.outer(root, root))
+    return (modes / root[:, None]) ** 2 @ np.exp(-np.outer(values, times))
