@@ -114,9 +114,9 @@ def _advance(before: Floats, now: Floats, x: int, first: bool, a: float, b: floa
         for n in range(2, reach + 1):
             value = before[x, n - 1] + up
             other = before[x - 1, n - 1] + both
-            value = max(value, other)
+            value = other if other > value else value
             other = now[x - 1, n] + left
-            now[x, n] = max(value, other)
+            now[x, n] = other if other > value else value
 
 
 @njit(nogil=True, cache=True)

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 from sklearn.cluster import KMeans
-from threadpoolctl import threadpool_limits
 
 LOOKS = 20
 STARTS = 50
@@ -31,9 +30,8 @@ def reduction(values: Float[np.ndarray, "frames D"], most: int, seed: int, looks
     frames = len(values)
     if most <= 1:
         return Reduction(np.arange(frames + 1))
-    with threadpool_limits(1):
-        looks = min(looks, len(np.unique(values, axis=0)))
-        look = KMeans(looks, init="random", n_init=STARTS, max_iter=100, random_state=seed).fit_predict(values)
+    looks = min(looks, len(np.unique(values, axis=0)))
+    look = KMeans(looks, init="random", n_init=STARTS, max_iter=100, random_state=seed).fit_predict(values)
     firsts = [0]
     for frame in range(1, frames):
         if look[frame] != look[frame - 1] or frame - firsts[-1] == most:

@@ -7,7 +7,6 @@ from jaxtyping import Float, Int
 from scipy.linalg import eigh
 from sklearn.cluster import KMeans
 from sklearn.exceptions import ConvergenceWarning
-from threadpoolctl import threadpool_limits
 
 STARTS = 50
 DIGITS = 9
@@ -27,8 +26,7 @@ def embedding(kernel: Float[np.ndarray, "n n"], groups: int) -> Float[np.ndarray
     """
     root = 1 / np.sqrt(kernel.sum(axis=1))
     most = min(groups, len(kernel))
-    with threadpool_limits(1):
-        values, vectors = eigh(kernel * root[:, None] * root, subset_by_index=[len(kernel) - most, len(kernel) - 1])
+    values, vectors = eigh(kernel * root[:, None] * root, subset_by_index=[len(kernel) - most, len(kernel) - 1])
     rows = vectors[:, values > 10.0**-DIGITS]
     length = np.linalg.norm(rows, axis=1, keepdims=True)
     return np.asarray(np.round(rows / np.where(length > 0, length, 1.0), DIGITS))
@@ -41,7 +39,7 @@ def grouped(rows: Float[np.ndarray, "n d"], groups: int, seed: int) -> Int[np.nd
         return np.asarray(which, np.int64)
     if groups == 1:
         return np.zeros(len(rows), np.int64)
-    with threadpool_limits(1), warnings.catch_warnings():
+    with warnings.catch_warnings():
         warnings.simplefilter("ignore", ConvergenceWarning)  # rows all but the same: fewer groups, as the caller sees
         fit = KMeans(groups, init="random", n_init=STARTS, max_iter=100, random_state=seed).fit(rows)
     return np.asarray(fit.labels_, np.int64)

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 from jaxtyping import Float, Int
+from threadpoolctl import threadpool_limits
 
 from core.analysis import Analysis
 from core.document import Notice
@@ -40,7 +41,8 @@ def compared(analysis: Analysis, parameters: Parameters, divide: Divide, most_fr
         )
     if motions == 1:
         return Cut(np.zeros(analysis.frames, np.int64), keys)
-    labels = divide(values, analysis.frame_rate, motions, parameters.seed)
+    with threadpool_limits(1):
+        labels = divide(values, analysis.frame_rate, motions, parameters.seed)
     found = len(np.unique(labels))
     if found == motions:
         return Cut(labels, keys)
