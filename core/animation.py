@@ -1,5 +1,6 @@
 """An animation as the method sees it: one triangulation, and vertices drawn by blocks of frames."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
@@ -35,8 +36,8 @@ class Animation:
     `vertices(start, stop)` draws frames [start, stop) as float32 (block, V, 3); nothing holds all frames at once.
     `rest` is the undeformed shape the file itself names (bind pose, base mesh), or None where it names none
     (then the method takes frame 0). A skeleton without a mesh has `triangles` of shape (0, 3): its vertices are
-    its joints. `as_gltf` says that it is one take of one glTF, all of which its nodes and skins can show. Frames are
-    integers from 0; frame i is at `start_seconds` + i / `frame_rate` on the file's clock.
+    its joints. `gltf` are the parts of a glTF whose one take this is, and whose nodes and skins can show it, or None.
+    Frames are integers from 0; frame i is at `start_seconds` + i / `frame_rate` on the file's clock.
     """
 
     vertices: Vertices
@@ -47,7 +48,7 @@ class Animation:
     frame_rate: float
     take: Take
     start_seconds: float = 0.0
-    as_gltf: bool = False
+    gltf: Mapping[str, memoryview] | None = None
     notices: tuple[Notice, ...] = field(default=())
 
     def seconds(self, frame: int) -> float:

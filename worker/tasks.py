@@ -60,7 +60,7 @@ def _analyse(attempt: Attempt, settings: WorkerSettings) -> None:
         scratch = scratch_space(settings.scratch_dir, allowance.grant)
         animation = read_animation(parts, parameters, settings.limits, scratch)
         analysis = analyse(animation, parameters, threads=threads, progress=attempt.progress)
-        shown = playback(animation, parts, analysis, threads=threads, progress=attempt.progress)
+        shown = playback(animation, analysis, threads=threads, progress=attempt.progress)
         viewer = ViewerRecord(
             document=shown.document,
             model=blobs.put(shown.model, "viewer"),

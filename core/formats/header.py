@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import BinaryIO
 
 from core.formats.archive import Archive
-from core.formats.frame_rate import ASSUMED, frame_count
+from core.formats.bvh.hierarchy import read_head
+from core.formats.frame_rate import ASSUMED, frame_count, snapped
 from core.formats.gltf.container import CHUNK, HEADER, glb_length, json_chunk_length, parse_root
 from core.formats.gltf.document import check_extensions
 from core.formats.gltf.key_times import KeyTimes
@@ -56,6 +57,8 @@ def read_header(file: BinaryIO, name: str, limits: Limits) -> Header:
     kind = sniff(file.read(SNIFFED))
     if kind == "npz":
         return _npz_header(file, name, limits)
+    if kind == "bvh":
+        return _bvh_header(file, name, limits)
     return _gltf_header(file, kind, name, limits)
 
 
@@ -84,6 +87,15 @@ def _json_of_glb(file: BinaryIO, size: int) -> tuple[int, int]:
 def _take(place: int, clip: Clip) -> HeaderTake:
     rate = clip.rate or ASSUMED
     return HeaderTake(place, clip.name, clip.seconds, int(min(frame_count(clip.seconds, rate), MOST_FRAMES)), rate)
+
+
+def _bvh_header(file: BinaryIO, name: str, limits: Limits) -> Header:
+    file.seek(0)
+    head = read_head(file.read(2 * MOST_JSON), limits)
+    rate = snapped(head.rate) or ASSUMED
+    seconds = max(head.frames - 1, 0) / head.rate
+    frames = int(min(frame_count(seconds, rate), MOST_FRAMES))
+    return Header("bvh", name, (HeaderTake(0, "motion", seconds, frames, rate),), len(head.joints), 0)
 
 
 def _npz_header(file: BinaryIO, name: str, limits: Limits) -> Header:

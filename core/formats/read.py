@@ -7,6 +7,7 @@ from typing import BinaryIO, cast
 from core.animation import Animation, Take
 from core.errors import InvalidModel, UnsupportedMedia
 from core.formats.buffer_file import BufferFile
+from core.formats.bvh.as_gltf import bvh_as_gltf
 from core.formats.gltf.read import read_gltf
 from core.formats.header import read_header
 from core.formats.npz import read_npz
@@ -29,8 +30,11 @@ def read_animation(parts: Mapping[str, Part], parameters: Parameters, limits: Li
     views = {name: memoryview(part).toreadonly() for name, part in parts.items()}
     model = main_part(views)
     data = views.pop(model)
-    if sniff(bytes(data[:SNIFFED])) == "npz":
+    kind = sniff(bytes(data[:SNIFFED]))
+    if kind == "npz":
         return read_npz(data, parameters, limits, scratch)
+    if kind == "bvh":
+        data = memoryview(bvh_as_gltf(data, limits))
     return read_gltf(data, views, parameters, limits)
 
 

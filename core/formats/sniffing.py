@@ -5,19 +5,18 @@ from typing import Literal
 
 from core.errors import UnsupportedMedia
 
-Format = Literal["glb", "gltf", "npz"]
+Format = Literal["glb", "gltf", "npz", "bvh"]
 
 SNIFFED = 256
 """Bytes that are enough to tell."""
 
-READ = "glTF 2.0 (.glb, .gltf) and NumPy archives (.npz)"
+READ = "glTF 2.0 (.glb, .gltf), BVH (.bvh) and NumPy archives (.npz)"
 
 OTHERS = {
     b"version https://git-lfs": "a Git LFS pointer, not the file it stands for; fetch it with git lfs pull",
     b"\x89PNG": "a PNG image",
     b"\xff\xd8\xff": "a JPEG image",
     b"Kaydara FBX": "an FBX file; convert it to GLB, for instance with Blender",
-    b"HIERARCHY": "a BVH file; convert it to GLB, for instance with Blender",
     b"PXR-USDC": "a USD file; convert it to GLB, for instance with Blender",
     b"BLENDER": "a Blender file; export it as GLB",
     b"Ogawa": "an Alembic file; export it as GLB",
@@ -40,6 +39,8 @@ def sniff(head: bytes) -> Format:
     text = head.removeprefix(codecs.BOM_UTF8).lstrip(b" \t\r\n")
     if text.startswith((b"{", b"[")) or head.startswith(WIDE):
         return "gltf"
+    if text.startswith(b"HIERARCHY"):
+        return "bvh"
     raise UnsupportedMedia("unsupported-media-type", f"The file is {_described(head, text)}. Read here are {READ}.")
 
 

@@ -32,9 +32,10 @@ class Figure:
     """One body of all primitives: in scene order, depth first, vertices as in their accessors.
 
     Vertex v is moved by the bones `bones[first[v]:first[v + 1]]` with `weights` of sum 1. A bone is a node and the
-    matrix (3 x 4) that takes the vertex into its frame: a joint of a skin and its inverse bind matrix, or the
-    node of a rigid mesh and the identity, or the place of an instance. `skins` are the ranges [start, stop) of bones that are skins; `parts` are
-    all vertices in order, those with morph targets apart from those without. `instanced`: a node draws more than one.
+    matrix (3 x 4) that takes the vertex into its frame: a joint of a skin and its inverse bind matrix, or the node of
+    a rigid mesh and the place of an instance. `skins` are the ranges [start, stop) of bones that are skins; `parts`
+    are all vertices in order, those with morph targets apart from those without. `instanced` says that a node draws
+    its mesh more than once.
     """
 
     positions: Float[np.ndarray, "V 3"]

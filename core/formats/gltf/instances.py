@@ -39,7 +39,8 @@ class Instances:
         matrices = np.empty((1, self.count, 12))
         none = np.zeros(self.count, bool)
         worlds(pose, np.full(self.count, -1), np.zeros((self.count, 12)), none, matrices)
-        return matrices[0]
+        found: Float[np.ndarray, "count 12"] = matrices[0]
+        return found
 
 
 def read_instances(document: Document, accessors: Accessors, node: Entry) -> Instances:

@@ -53,7 +53,7 @@ def read_gltf(data: memoryview, parts: Mapping[str, memoryview], parameters: Par
         frame_rate=rate,
         take=course.take,
         start_seconds=course.start_seconds,
-        as_gltf=len(chosen) == 1 and not figure.instanced,
+        gltf={**parts, "": data} if len(chosen) == 1 and not figure.instanced else None,
         notices=document.notices.told(),
     )
 

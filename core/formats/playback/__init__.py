@@ -1,7 +1,7 @@
 """What the page plays: a model, and how strained its surface is at every frame.
 
     from core.formats.playback.play import playback
-    playback(animation, parts, analysis, threads=…, progress=…) -> Playback(document, model, strain)
+    playback(animation, analysis, threads=…, progress=…) -> Playback(document, model, strain)
 
 A glTF plays as itself: `model` is a plain copy that three.js skins on the GPU (`plain_copy`). A vertex sequence
 plays from blocks of 32 frames (`vertex_blocks`). `strain` is one byte per patch and frame in blocks of the same

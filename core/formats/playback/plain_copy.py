@@ -37,7 +37,7 @@ def plain_copy(parts: Mapping[str, memoryview], take: int, patch_of_vertex: Int[
     `patch_of_vertex` is in the order in which the reader takes vertices: nodes depth first, then primitives.
     """
     beside = dict(parts)
-    document = Document(beside.pop(main_part(parts)), beside, Limits.none())
+    document = Document(beside.pop("" if "" in parts else main_part(parts)), beside, Limits.none())
     return _Copy(document, take, patch_of_vertex).pieces()
 
 

@@ -1,19 +1,21 @@
 """What the page plays of a take, made in one call."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
-from mmap import mmap
 from typing import Any
 
 import numpy as np
 
 from core.analysis import Analysis
 from core.animation import Animation
+from core.descriptors.strain import TriangleStrain
 from core.formats.playback.plain_copy import plain_copy
 from core.formats.playback.strain_blocks import Patches, patches, strain_blocks
 from core.formats.playback.vertex_blocks import shown_mesh, vertex_blocks
+from core.parameters import Parameters
 from core.progress import Progress, ignore
 from core.rest import rest_shape
+from core.surfaces import SURFACES, Subject, Surface
 
 UNSTRAINED = {"no-strain", "no-deformation"}
 """Notices of an analysis whose surface does not strain: there is nothing to colour."""
@@ -23,7 +25,7 @@ UNSTRAINED = {"no-strain", "no-deformation"}
 class Playback:
     """`document` is what the service answers, without addresses. The streams can be read once, in any order.
 
-    They draw from the animation and from the upload, so both must still be there.
+    They draw from the animation, so what it was read from must still be there.
     """
 
     document: dict[str, Any]
@@ -33,20 +35,18 @@ class Playback:
 
 def playback(
     animation: Animation,
-    parts: Mapping[str, bytes | memoryview | mmap],
     analysis: Analysis,
     *,
     threads: int = 1,
     progress: Progress = ignore,
 ) -> Playback:
     """The model and its strain, to be written as they are read. `progress` hears the stage "figure" while they are."""
-    views = {name: memoryview(part).toreadonly() for name, part in parts.items()}
     surface = _patches(animation, analysis)
     of_vertex = np.zeros(animation.vertex_count, np.int64) if surface is None else surface.of_vertex
     shown = {"vertices": animation.vertex_count, "triangles": len(animation.triangles)}
-    kind = "gltf" if animation.as_gltf else "vertices"
-    if animation.as_gltf:
-        model = plain_copy(views, animation.take.index, of_vertex)
+    kind = "vertices" if animation.gltf is None else "gltf"
+    if animation.gltf is not None:
+        model = plain_copy(animation.gltf, animation.take.index, of_vertex)
     else:
         mesh = shown_mesh(animation)
         model = vertex_blocks(animation, mesh, of_vertex, threads=threads, progress=progress)
@@ -67,9 +67,15 @@ def playback(
 
 
 def _patches(animation: Animation, analysis: Analysis) -> Patches | None:
-    """The patches of a surface that strains."""
+    """The patches of a surface that strains, or changes by whatever descriptor was chosen."""
     if len(animation.triangles) == 0 or UNSTRAINED & {notice.code for notice in analysis.notices}:
         return None
-    heavy = analysis.heavy
-    rest = rest_shape(animation, heavy["rest"])
-    return patches(rest, animation.triangles, animation.frames, heavy["strain"], heavy["scale_invariant"])
+    chosen = Parameters.model_validate(analysis.heavy)
+    if chosen.descriptor not in SURFACES:  # of pairs of points, which have no place on the surface
+        return None
+    rest = rest_shape(animation, chosen.rest)
+
+    def descriptor(strain: TriangleStrain) -> Surface:
+        return SURFACES[chosen.descriptor](Subject(animation, rest, strain, chosen))
+
+    return patches(rest, animation.triangles, animation.frames, chosen.strain, chosen.scale_invariant, descriptor)

@@ -1,10 +1,12 @@
 """Strain for the eye: one byte for every patch of the surface and frame, 0 at rest, 255 at the strain that counts as 1.
 
+Where another descriptor was chosen, it is that one that is shown.
+
 More patches than the features use, for these are looked at; fewer the longer the take is, so that the file stays
 below 64 MB.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +19,7 @@ from core.descriptors.patches import patch_of_triangles
 from core.descriptors.strain import TriangleStrain
 from core.formats.playback.block_file import FRAMES_PER_BLOCK, block_file
 from core.progress import Progress, ignore
+from core.surfaces import Surface
 
 MOST_PATCHES = 512
 FEWEST_PATCHES = 64
@@ -27,7 +30,7 @@ FILE_BYTES = 64 * 2**20
 class Patches:
     """The patches of a body, and the patch of each of its vertices (of one of the triangles around it)."""
 
-    strain: TriangleStrain
+    surface: Surface
     means: PatchMeans
     of_vertex: Int[np.ndarray, "V"]
 
@@ -38,8 +41,9 @@ def patches(
     frames: int,
     measure: str,
     scale_invariant: bool,
+    descriptor: Callable[[TriangleStrain], Surface] = lambda strain: strain,
 ) -> Patches:
-    """The patches to show. A patch none of whose triangles can be strained is joined to its neighbour in number."""
+    """The patches to show, of strain or of a `descriptor` of the same triangles. A patch none of whose triangles can be strained is joined to its neighbour in number."""
     count = min(max(FILE_BYTES // frames, FEWEST_PATCHES), MOST_PATCHES)
     patch = patch_of_triangles(rest, triangles, count)
     strain = TriangleStrain.of(rest, triangles, np.argsort(patch, kind="stable"), measure, scale_invariant)
@@ -47,7 +51,7 @@ def patches(
     patch = np.searchsorted(met, patch).clip(max=max(len(met) - 1, 0))
     of_vertex = np.zeros(len(rest), np.int64)
     of_vertex[triangles] = patch[:, None]
-    return Patches(strain, PatchMeans.of(patch[strain.triangles], strain.areas), of_vertex)
+    return Patches(descriptor(strain), PatchMeans.of(patch[strain.triangles], strain.areas), of_vertex)
 
 
 def strain_blocks(
@@ -75,6 +79,6 @@ def _bytes(
 ) -> UInt8[np.ndarray, "block patches"]:
     means = shown.means.empty(stop - start)
     vertices = np.ascontiguousarray(animation.vertices(start, stop), np.float32)
-    for columns, tile in shown.strain.tiles(vertices):
+    for columns, tile in shown.surface.tiles(vertices):
         shown.means.add(columns, tile, means)
     return np.rint(means.T * np.float32(255 / scale)).clip(0, 255).astype(np.uint8)

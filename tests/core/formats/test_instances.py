@@ -36,10 +36,10 @@ def test_every_instance_is_taken_where_it_is() -> None:
     turned = 2 * np.stack([-square[:, 1], square[:, 0], square[:, 2]], axis=1) + [0, 5, 0]
     expected = np.concatenate([square, turned])
     np.testing.assert_allclose(animation.vertices(0, 1)[0], expected, atol=1e-6)
-    np.testing.assert_allclose(animation.vertices(30, 31)[0], expected + [1, 0, 0], atol=1e-6)
+    np.testing.assert_allclose(animation.vertices(30, 31)[0], expected + np.array([1, 0, 0]), atol=1e-6)
     np.testing.assert_array_equal(animation.triangles[2:], animation.triangles[:2] + 4)
     assert codes(animation) == {"instances-expanded"}
-    assert not animation.as_gltf
+    assert animation.gltf is None
 
 
 def test_rotations_may_be_integers() -> None:

@@ -102,7 +102,7 @@ def test_all_takes_follow_each_other() -> None:
     np.testing.assert_array_equal(animation.vertices(30, 33), expected[30:33])
     assert codes(animation) == {"takes-joined"}
     assert "'x' at 0, 'y' at 31, 'z' at 32" in animation.notices[0].detail
-    assert not animation.as_gltf
+    assert animation.gltf is None
 
 
 def test_a_part_of_all_takes() -> None:

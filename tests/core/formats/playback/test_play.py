@@ -90,7 +90,7 @@ def plain(data: bytes) -> tuple[Animation, bytes, bytes]:
     """The animation of a file, its plain copy, and its strain."""
     parts = {"model": data}
     animation = read_animation(parts, Parameters(), Limits(), scratch)
-    shown = playback(animation, parts, analyse(animation))
+    shown = playback(animation, analyse(animation))
     return animation, b"".join(shown.model), b"".join(shown.strain or [])
 
 
@@ -150,7 +150,7 @@ def test_a_skeleton_without_a_mesh_is_shown_by_its_joints() -> None:
     data = without_meshes(figure("smooth").glb)
     parts = {"model": data}
     animation = read_animation(parts, Parameters(), Limits(), scratch)
-    shown = playback(animation, parts, analyse(animation))
+    shown = playback(animation, analyse(animation))
     assert shown.document["skeleton"]
     assert shown.strain is None
     copy = b"".join(shown.model)

@@ -1,0 +1,97 @@
+"""A BVH as a GLB of the same skeleton, so that there is one way to sample, to pose and to show it."""
+
+import warnings
+
+import numpy as np
+from jaxtyping import Float
+
+from core.errors import InvalidModel
+from core.formats.budget import Budget
+from core.formats.bvh.hierarchy import Head, Joint, malformed, read_head
+from core.formats.gltf.writer import Channel, GlbWriter
+from core.limits import Limits
+
+AXES = {"X": 0, "Y": 1, "Z": 2}
+
+
+def bvh_as_gltf(data: memoryview, limits: Limits) -> bytes:
+    """The GLB: a node for every joint, and the rotations and places of those that have channels.
+
+    Raises `BrokenContainer("malformed-bvh")`, `InvalidModel` or `LimitExceeded`.
+    """
+    head = read_head(bytes(data[: 2**23]), limits)
+    limits.check("max_frames", head.frames, "Cut the take")
+    Budget(limits).check(4 * len(data) + head.frames * 4 * len(head.joints) * 8)
+    values = _values(data, head)
+    writer = GlbWriter()
+    for joint in head.joints:
+        writer.node(joint.name, parent=None if joint.parent < 0 else joint.parent, translation=joint.offset)
+    times = (np.arange(head.frames) / head.rate).astype(np.float32)
+    writer.animation("motion", _moves(head, values, times))
+    return writer.to_bytes()
+
+
+def _values(data: memoryview, head: Head) -> Float[np.ndarray, "frames columns"]:
+    count = head.frames * head.columns
+    if count == 0:
+        raise InvalidModel("no-motion", "The BVH has no frames, or none of its joints moves.")
+    text = bytes(data[head.start :])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        try:
+            # Never told how many: where there are fewer, NumPy fills up with whatever lies in memory.
+            values = np.fromstring(text, np.float64, sep=" ")[:count]
+        except (ValueError, DeprecationWarning):
+            raise malformed("has something that is no number among its frames") from None
+    if len(values) < count:
+        raise malformed(f"has {len(values):,} numbers, of {count:,} in {head.frames:,} frames")
+    if not (np.abs(values) < 1e30).all():
+        raise InvalidModel("non-finite-data", "A number of the motion is not finite.", frame=_bad_frame(values, head))
+    return values.reshape(head.frames, head.columns)
+
+
+def _bad_frame(values: Float[np.ndarray, "numbers"], head: Head) -> int:
+    return int(np.argmin(np.abs(values) < 1e30)) // head.columns
+
+
+def _moves(
+    head: Head, values: Float[np.ndarray, "frames columns"], times: Float[np.ndarray, "frames"]
+) -> list[Channel]:
+    found = []
+    first = 0
+    for node, joint in enumerate(head.joints):
+        own = values[:, first : first + len(joint.channels)]
+        first += len(joint.channels)
+        kinds = {channel[1:] for channel in joint.channels}
+        if "rotation" in kinds:
+            found.append(Channel(node, "rotation", times, _rotations(joint, own)))
+        if "position" in kinds:
+            found.append(Channel(node, "translation", times, _places(joint, own)))
+    return found
+
+
+def _places(joint: Joint, own: Float[np.ndarray, "frames channels"]) -> Float[np.ndarray, "frames 3"]:
+    """Where a joint is in its parent: on the axes that it has channels for, these and not its offset."""
+    places = np.tile(np.array(joint.offset, np.float64), (len(own), 1))
+    for column, channel in enumerate(joint.channels):
+        if channel.endswith("position"):
+            places[:, AXES[channel[0]]] = own[:, column]
+    return places.astype(np.float32)
+
+
+def _rotations(joint: Joint, own: Float[np.ndarray, "frames channels"]) -> Float[np.ndarray, "frames 4"]:
+    """Rotations about the axes in the order of the channels, the last one first on a point; degrees."""
+    x, y, z, w = *np.zeros((3, len(own))), np.ones(len(own))
+    for column, channel in enumerate(joint.channels):
+        if channel.endswith("rotation"):
+            half = np.radians(own[:, column]) / 2
+            sine = np.sin(half)
+            a, b, c = (sine * (channel[0] == axis) for axis in AXES)
+            d = np.cos(half)
+            x, y, z, w = (
+                w * a + x * d + y * c - z * b,
+                w * b - x * c + y * d + z * a,
+                w * c + x * b - y * a + z * d,
+                w * d - x * a - y * b - z * c,
+            )
+    return np.stack([x, y, z, w], axis=1).astype(np.float32)
