@@ -6,7 +6,9 @@ from jaxtyping import Float, Int
 from core.analysis import Features
 from core.windows import speeds
 
-REACH_SECONDS = 1.0
+REACH_SECONDS = 0.5
+"""A window of a second and a half knows a cut no worse than that; people change motion gradually, and over longer the
+frames between two motions are like neither."""
 GUARD_SECONDS = 0.75
 """So near to a cut a frame is no example of its motion."""
 NEAREST = 5
@@ -17,7 +19,7 @@ SPEED_WEIGHT = 0.5
 def refined(
     labels: Int[np.ndarray, "frames"], features: tuple[Features, ...], frame_rate: float
 ) -> Int[np.ndarray, "frames"]:
-    """Every cut moved within a second to where the frames before it are most like the motion before it, and those
+    """Every cut moved within half a second to where the frames before it are most like the motion before it, and those
     after it like the one after.
 
     How unlike a frame is to a motion is its mean distance to the 5 nearest of that motion's frames (at most 600, none

@@ -38,21 +38,26 @@ class Signal:
         return np.asarray(np.repeat(labels, self.stride)[: self.frames])
 
 
-def windowed_signal(features: tuple[Features, ...], frames: int, frame_rate: float) -> Signal | None:
+def windowed_signal(
+    features: tuple[Features, ...], frames: int, frame_rate: float, weights: tuple[float, ...] = ()
+) -> Signal | None:
     """Mean, deviation and RMS speed of every descriptor over a second and a half; None where nothing changes.
 
-    The three statistics of a descriptor count alike, whatever their units, and so do the descriptors.
+    The three statistics of a descriptor count alike, whatever their units, and so do the descriptors but for their
+    `weights`.
     """
     stride = max(round(frame_rate / STEPS_PER_SECOND), 1)
     at = np.minimum(np.arange(0, frames, stride) + stride // 2, frames - 1)
     half = max(round(WINDOW_SECONDS * frame_rate / 2), 1)
     values, size, tempo = [], [], []
-    for feature in features:
+    for feature, weight in zip(features, weights or (1.0,) * len(features), strict=True):
         for number, statistic in enumerate(window_statistics(feature.values, half, frame_rate, at)):
-            if spread := _root_mean_square(statistic - statistic.mean(axis=0)):
-                values.append((statistic - statistic.mean(axis=0)) / spread)
-                size.append(statistic / spread * (number > 0))  # deviation and speed grow with the motion, …
-                tempo.append(statistic / spread * (number > 1))  # … and speed with its speed
+            spread = _root_mean_square(statistic - statistic.mean(axis=0))
+            if spread * weight > 0:
+                unit = weight / spread
+                values.append((statistic - statistic.mean(axis=0)) * unit)
+                size.append(statistic * (unit * (number > 0)))  # deviation and speed grow with the motion, …
+                tempo.append(statistic * (unit * (number > 1)))  # … and speed with its speed
     if not values:
         return None
     together = np.concatenate(values, axis=1)
