@@ -10,11 +10,11 @@ from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddle
 from service import errors, openapi
 from service.backend import opened
 from service.queries import only_known
-from service.routes import about, animations, health, pages, results, segmentations
+from service.routes import about, animations, clips, health, pages, results, segmentations
 from service.security import SecurityHeaders
 from service.settings import ServiceSettings
 
-FILES = ("application/octet-stream", "application/x-npz", "model/*")
+FILES = ("application/octet-stream", "application/x-npz", "application/zip", "model/*")
 """Served by Range, or packed already: a compressed form would be another file."""
 
 
@@ -36,7 +36,7 @@ def create_app(settings: ServiceSettings) -> FastAPI:
         generate_unique_id_function=openapi.operation_name,
     )
     errors.install(app)
-    for routes in (animations, segmentations, results, about, health):
+    for routes in (animations, segmentations, results, clips, about, health):
         app.include_router(routes.router, dependencies=[Depends(only_known)])
     app.include_router(pages.router)
     pages.mount(app)

@@ -49,6 +49,25 @@ RESULT: dict[int | str, dict[str, Any]] = {
     304: {"description": "It is the one that the client has."},
 }
 
+_LATER: dict[int | str, dict[str, Any]] = {
+    202: {"description": "The file is being made; Location says where to ask again."},
+    206: {"description": "The range of it that was asked for."},
+    304: {"description": "It is the one that the client has."},
+}
+
+CLIPS: dict[int | str, dict[str, Any]] = {
+    200: {
+        "description": "The file with its clips, or a zip of them.",
+        "content": {"model/gltf-binary": {"schema": _BYTES}, "application/zip": {"schema": _BYTES}},
+    },
+    **_LATER,
+}
+
+KEY_POSES: dict[int | str, dict[str, Any]] = {
+    200: {"description": "The file with its key poses.", "content": {"model/gltf-binary": {"schema": _BYTES}}},
+    **_LATER,
+}
+
 EVENTS: dict[int | str, dict[str, Any]] = {
     200: {
         "description": "`status` events, each a status document.",

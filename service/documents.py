@@ -99,7 +99,7 @@ class SegmentationPage(_Answer):
 
 def _links(identifier: str) -> dict[str, str]:
     here = f"/v1/segmentations/{identifier}"
-    named = {name: f"{here}/{name}" for name in ("events", "result", "viewer")}
+    named = {name: f"{here}/{name}" for name in ("events", "result", "clips", "keyframes", "viewer")}
     return {"self": here, **named, "page": f"/view/{identifier}"}
 
 

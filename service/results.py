@@ -30,15 +30,21 @@ WRITERS: dict[tuple[str, str], Writer] = {
 async def result(backend: Backend, request: Request, record: SegmentationRecord, form: Form, table: str) -> Response:
     """The result, once there is one; 409 while it is made, its own problem where there will be none."""
     record = await backend.awaited(record, wait_seconds(request))
+    refused = unfinished(request, record)
+    if refused is not None:
+        return refused
+    if form.suffix == "npz":
+        return await _made(backend, request, record, form)
+    return await _text(backend, request, record, form, table)
+
+
+def unfinished(request: Request, record: SegmentationRecord) -> Response | None:
+    """Why there is no result, where there is none."""
     applied = preference_applied(request)
     if record.live:
         detail = f"It is {record.status}. Ask again, send Prefer: wait=30, or follow its events."
         return problem_response({"kind": "request", "code": "not-finished", "detail": detail}, applied)
-    if record.status != "done":
-        return problem_response(problem_of(record), applied)
-    if form.suffix == "npz":
-        return await _made(backend, request, record, form)
-    return await _text(backend, request, record, form, table)
+    return None if record.status == "done" else problem_response(problem_of(record), applied)
 
 
 async def _text(backend: Backend, request: Request, record: SegmentationRecord, form: Form, table: str) -> Response:
@@ -64,16 +70,31 @@ def _written(write: Writer, stored: bytes) -> str:
 
 async def _made(backend: Backend, request: Request, record: SegmentationRecord, form: Form) -> Response:
     """Made of arrays by a job at the first request, then served as stored."""
-    made = await _export(backend, record.id, form.suffix, wait_seconds(request) or EXPORT_WAIT_SECONDS)
+    name, here = f"{record.id}.{form.suffix}", f"/v1/segmentations/{record.id}/result.{form.suffix}"
+    return await made_file(backend, request, record, form.suffix, here, name, form.media_type)
+
+
+async def made_file(
+    backend: Backend,
+    request: Request,
+    record: SegmentationRecord,
+    form: str,
+    here: str,
+    name: str,
+    media_type: str = "",
+) -> Response:
+    """A file that a job makes at the first request for it, to be saved as `name`; 202 while it is being made."""
+    made = await _export(backend, record.id, form, wait_seconds(request) or EXPORT_WAIT_SECONDS)
     applied = preference_applied(request)
     if made.problem is not None:
         return problem_response(made.problem, applied)
     if made.key is None:
-        here = {"Location": f"/v1/segmentations/{record.id}/result.{form.suffix}"}
-        return answer(StatusDocument.of(record), 202, here | applied | ASK_AGAIN)
+        return answer(StatusDocument.of(record), 202, {"Location": here} | applied | ASK_AGAIN)
     size = await to_thread.run_sync(backend.blobs.size, made.key)
-    name = f"{record.id}.{form.suffix}"
-    stored = Stored(made.key, size, form.media_type, name, _tag(record, form.suffix))
+    if made.media_type == "application/zip":
+        name = name.rpartition(".")[0] + ".zip"
+    tag = f'"{made.key.rpartition("/")[2]}"'
+    stored = Stored(made.key, size, media_type or made.media_type, name, tag)
     return await to_thread.run_sync(stored_response, request, backend.blobs, stored)
 
 

@@ -213,3 +213,31 @@ def test_the_demo(service: str) -> None:
     run = caesura("demo", "--once", "--url", service)
     assert run.returncode == 0, run.stdout + run.stderr
     assert run.stdout.count("frame accuracy") == 2
+
+
+def test_clips_and_key_poses_are_written_beside_the_result(tmp_path: Path) -> None:
+    """`--clips` and `--keyframes` name the files; what is chosen for clips has the names of the API."""
+    from tests.glb import bending_strip
+
+    model = bending_strip()
+    model.json["animations"] = [{"name": "take", "samplers": [], "channels": []}]
+    times = np.arange(241) / 30
+    nod = 0.6 * np.sin(6 * times) * (times < 4)
+    model.animate(2, "rotation", times, np.stack([0 * times, 0 * times, np.sin(nod), np.cos(nod)], 1))
+    model.animate(0, "weights", times, 0.5 * (1 - np.cos(7 * (times - 4))) * (times >= 4))
+    (tmp_path / "strip.glb").write_bytes(model.glb())
+    out, poses = tmp_path / "clips.glb", tmp_path / "poses.glb"
+    options = ["--clips", out, "--keyframes", poses, "--keep-source", "--loop", "A"]
+    run = caesura("segment", tmp_path / "strip.glb", "--motions", "2", *options)
+    assert run.returncode == 0, run.stderr
+    assert b'"A_01-loop"' in out.read_bytes()
+    assert b'"take"' in out.read_bytes()
+    assert b'"key_frames"' in poses.read_bytes()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["clips.glb", "poses.glb", "strip.glb"]
+
+
+def test_one_file_of_clips_is_of_one_animation(folder: Path) -> None:
+    """Two animations cannot go into one file: that is said before anything is computed."""
+    run = caesura("segment", folder / "take.npz", folder / "empty.glb", "--clips", folder / "out.zip")
+    assert run.returncode == 2
+    assert "one animation at a time" in run.stderr

@@ -1,49 +1,111 @@
-"""Files made of a result that need arrays: the web process has none, so a `cut` job makes them."""
+"""Files made of a result that need arrays: the web process has none, so a `cut` job makes them.
+
+A form is a name, and after a question mark the options that are not the default ones: `clips?origin=keep`.
+"""
 
 import io
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
 from core.document import SegmentationDocument
+from core.errors import CaesuraError
+from core.formats.clips.options import ClipOptions
+from core.formats.clips.write import Parts, Scratch, Written, write_clips, write_key_poses
+from worker.allowance import Allowance
 from worker.attempt import INTERNAL_ERROR
-from worker.blobs import Blobs
+from worker.blobs import BlobMissing, Blobs
+from worker.jobs import EXPORT_SECONDS
+from worker.mapping import mapped_parts, scratch_space
 from worker.records import Records
-from worker.schema import ExportRecord
+from worker.schema import ExportRecord, SegmentationRecord
+from worker.settings import WorkerSettings
+
+GONE = {
+    "kind": "request",
+    "code": "gone",
+    "detail": "The upload is no longer kept here: its time has run out. Upload it again.",
+}
 
 
-def npz(document: SegmentationDocument, energy: bytes, labels: bytes) -> bytes:
+@dataclass(frozen=True)
+class Export:
+    """What a file is made of; `keep` stores it."""
+
+    records: Records
+    blobs: Blobs
+    settings: WorkerSettings
+    record: SegmentationRecord
+    document: SegmentationDocument
+    energy: bytes
+    labels: bytes
+
+    def keep(self, content: bytes | Iterator[bytes], media_type: str) -> ExportRecord:
+        """Where the file is, from now on."""
+        return ExportRecord(key=self.blobs.put(content, "exports"), media_type=media_type)
+
+
+def npz(export: Export, _: str) -> ExportRecord:
     """`energy` (frames,) float32, `labels` (frames,) uint16, `key_frames` (keys,), `segments` (segments, 3) of
 
     start, end, motion; `frame_rate`; and the whole document as JSON in `document`.
     """
-    out = io.BytesIO()
+    out, document = io.BytesIO(), export.document
     np.savez_compressed(
         out,
-        energy=np.frombuffer(energy, "<f4"),
-        labels=np.frombuffer(labels, "<u2"),
+        energy=np.frombuffer(export.energy, "<f4"),
+        labels=np.frombuffer(export.labels, "<u2"),
         key_frames=np.array([key.frame for key in document.key_frames], np.int64),
         segments=np.array([[s.start, s.end, s.motion] for s in document.segments], np.int64),
         frame_rate=np.float64(document.frame_rate),
         document=np.frombuffer(json.dumps(document.model_dump(mode="json")).encode(), np.uint8),
     )
-    return out.getvalue()
+    return export.keep(out.getvalue(), "application/octet-stream")
 
 
-Writer = Callable[[SegmentationDocument, bytes, bytes], bytes]
-FORMS: dict[str, tuple[str, Writer]] = {"npz": ("application/octet-stream", npz)}
+def clips(export: Export, options: str) -> ExportRecord:
+    """The upload with its take in clips."""
+    chosen = ClipOptions.parse(options)
+    return _of_upload(export, lambda parts, scratch: write_clips(parts, export.document, chosen, scratch))
 
 
-def run(records: Records, blobs: Blobs, identifier: str, form: str) -> None:
-    """Write one form of one result, and say where it is; a failure is said too, and then raised."""
+def keyframes(export: Export, _: str) -> ExportRecord:
+    """The upload with its take reduced to key poses."""
+    return _of_upload(export, lambda parts, scratch: write_key_poses(parts, export.document, scratch))
+
+
+def _of_upload(export: Export, write: Callable[[Parts, Scratch], Written]) -> ExportRecord:
+    """A file made of the uploaded one, which must still be there."""
+    animation = export.records.animation(export.record.animation)
+    if animation is None or not animation.parts:
+        raise BlobMissing(export.record.animation)
+    allowance = Allowance(export.settings.job_memory_bytes, EXPORT_SECONDS)
+    with mapped_parts(export.blobs, animation.parts, allowance.grant) as parts:
+        written = write(parts, scratch_space(export.settings.scratch_dir, allowance.grant))
+        return export.keep(written.pieces, written.media_type)
+
+
+Writer = Callable[[Export, str], ExportRecord]
+WRITERS: dict[str, Writer] = {"npz": npz, "clips": clips, "keyframes": keyframes}
+
+
+def run(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: str, form: str) -> None:
+    """Write one form of one result, and say where it is; a failure is said too, and raised where it is ours."""
+    record = records.segmentation(identifier)
     document, energy, labels = records.result(identifier)
-    if document is None or energy is None or labels is None:
+    if record is None or document is None or energy is None or labels is None:
         return  # deleted meanwhile
-    media_type, write = FORMS[form]
+    result = SegmentationDocument.model_validate_json(document)
+    export = Export(records, blobs, settings, record, result, energy, labels)
+    name, _, options = form.partition("?")
     try:
-        content = write(SegmentationDocument.model_validate_json(document), energy, labels)
-        made = ExportRecord(key=blobs.put(content, "exports"), media_type=media_type)
+        made = WRITERS[name](export, options)
+    except CaesuraError as refused:
+        made = ExportRecord(problem=refused.problem())
+    except BlobMissing:
+        made = ExportRecord(problem=GONE)
     except Exception:
         records.write_export(identifier, form, ExportRecord(problem=INTERNAL_ERROR))
         raise

@@ -5,16 +5,14 @@ from worker.blobs import Blobs
 from worker.jobs import Jobs
 from worker.schema import AnimationRecord
 
-EXPORTS = ("npz",)
+OF_UPLOAD = ("clips", "keyframes")
+"""Forms that hold what was uploaded: they go with it."""
 
 
 def forget_segmentation(jobs: Jobs, blobs: Blobs, identifier: str) -> None:
     """Cancel a segmentation where it is live, and delete it with every file made of it; the analysis stays."""
-    for form in EXPORTS:
-        made = jobs.records.export(identifier, form)
-        if made is not None and made.key is not None:
-            blobs.delete(made.key)
-        jobs.redis.delete(keys.export_key(identifier, form))
+    for form in jobs.records.exports(identifier):
+        _forget_export(jobs, blobs, identifier, form)
     jobs.delete(identifier)
 
 
@@ -27,10 +25,22 @@ def forget_animation(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> No
 
 
 def forget_files(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
-    """Delete an upload's files and what was computed from them; results stay."""
+    """Delete an upload's files, what was computed from them, and copies of them in clips; results stay."""
+    for segmentation in jobs.records.segmentations(animation.id):
+        for form in jobs.records.exports(segmentation.id):
+            if form.partition("?")[0] in OF_UPLOAD:
+                _forget_export(jobs, blobs, segmentation.id, form)
     for digest, analysis in jobs.records.analyses(animation.id).items():
         for key in analysis.blobs():
             blobs.delete(key)
         jobs.records.delete_analysis(animation.id, digest)
     for part in animation.parts:
         blobs.delete(part.key)
+
+
+def _forget_export(jobs: Jobs, blobs: Blobs, identifier: str, form: str) -> None:
+    made = jobs.records.export(identifier, form)
+    if made is not None and made.key is not None:
+        blobs.delete(made.key)
+    jobs.redis.delete(keys.export_key(identifier, form))
+    jobs.redis.srem(keys.exports_key(identifier), form)

@@ -119,6 +119,7 @@ class Jobs:
                 return kept
             pipe.multi()
             pipe.set(key, ExportRecord().model_dump_json(), ex=2 * EXPORT_SECONDS)  # then its job was lost
+            pipe.sadd(keys.exports_key(identifier), form)
             self._call("cut", "export", [identifier, form], ids.token(), EXPORT_SECONDS, pipe)
             with suppress(WatchError):  # somebody else asked for it in this moment
                 pipe.execute()

@@ -15,7 +15,8 @@
 | caesura:lease:TOKEN | string, expires | the attempt has a living worker |
 | caesura:analysis:ANIMATION:DIGEST | string | AnalysisRecord, JSON |
 | caesura:analyses:ANIMATION | set | the digests of an animation's analyses |
-| caesura:export:ID:FORMAT | string | ExportRecord, JSON |
+| caesura:export:ID:FORM | string | ExportRecord, JSON; the form is a name and its options |
+| caesura:exports:ID | set | the forms that were ever asked for |
 | caesura:swept | string, expires | somebody looked lately for what is kept too long |
 | caesura:changed:ID | channel | told at every change of a segmentation or its exports |
 """
@@ -60,6 +61,11 @@ def analyses_key(animation: str) -> str:
 def export_key(segmentation: str, form: str) -> str:
     """One file made of a result."""
     return f"caesura:export:{segmentation}:{form}"
+
+
+def exports_key(segmentation: str) -> str:
+    """The forms of a result that were asked for."""
+    return f"caesura:exports:{segmentation}"
 
 
 def lease_key(token: str) -> str:

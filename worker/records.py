@@ -213,6 +213,10 @@ class Records:
         """A file made of a result, or None where none was asked for."""
         return ExportRecord.read(self.redis.get(keys.export_key(segmentation, form)))
 
+    def exports(self, segmentation: str) -> list[str]:
+        """The forms that were asked for."""
+        return sorted(names(self.redis.smembers(keys.exports_key(segmentation))))
+
     def write_export(self, segmentation: str, form: str, record: ExportRecord) -> None:
         """Keep where the file is, or why there is none."""
         with self.redis.pipeline() as pipe:

@@ -36,9 +36,8 @@ def run_cut(identifier: str, token: str) -> None:
 def run_export(identifier: str, form: str) -> None:
     """A file made of a result, for the web process has no arrays."""
     settings = WorkerSettings()
-    exports.run(
-        Jobs.open(settings).records, Blobs.open(settings.store_location, settings.scratch_dir), identifier, form
-    )
+    blobs = Blobs.open(settings.store_location, settings.scratch_dir)
+    exports.run(Jobs.open(settings).records, blobs, settings, identifier, form)
 
 
 def run_sweep() -> None:

@@ -6,6 +6,7 @@ from typing import Annotated, Any, get_args, get_origin
 import click
 from pydantic.fields import FieldInfo
 
+from core.formats.clips.options import ClipOptions
 from core.parameters import Parameters
 
 
@@ -18,6 +19,24 @@ def parameters(function: Callable[..., Any]) -> Callable[..., Any]:
     for name, field in reversed(Parameters.model_fields.items()):
         function = _option(name, field)(function)
     return function
+
+
+def clips(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add an option for each choice of clips; the command receives it as `clip_NAME`, for `files` is its own."""
+    for name, field in reversed(ClipOptions.model_fields.items()):
+        flag, text = f"--{name.replace('_', '-')}", f"{field.description}  [of --clips]"
+        if field.annotation is bool:
+            option = click.option(flag, f"clip_{name}", is_flag=True, default=None, help=text)
+        else:
+            option = click.option(flag, f"clip_{name}", metavar=_metavar(field.annotation), help=text)
+        function = option(function)
+    return function
+
+
+def clip_options(arguments: dict[str, Any]) -> ClipOptions:
+    """The choices that were given, out of a command's keyword arguments."""
+    named = {name: arguments[f"clip_{name}"] for name in ClipOptions.model_fields}
+    return ClipOptions.of({name: value for name, value in named.items() if value is not None})
 
 
 def given(arguments: dict[str, Any]) -> dict[str, str]:

@@ -49,6 +49,15 @@ export const cancel = (id) => call('DELETE', `/v1/segmentations/${id}`);
 export const segment = (animationId, parameters = {}) =>
   call('POST', '/v1/segmentations', json({ animation: animationId, ...parameters }));
 export const download = (id, form) => `/v1/segmentations/${id}/result.${form}`;
+export const clips = (id) => `/v1/segmentations/${id}/clips`;
+
+/** Whether the clips are there to be fetched, after waiting for them for a while. */
+export async function clipsReady(id) {
+  const answer = await fetch(clips(id), { headers: { Prefer: 'wait=30', Range: 'bytes=0-0' } }).catch(() => null);
+  if (!answer) throw new Problem(UNREACHABLE);
+  if (!answer.ok) throw new Problem(await problemOf(answer));
+  return answer.status !== 202;
+}
 
 /**
  * Upload one file as the body, several as a form. `onProgress` hears the share sent.

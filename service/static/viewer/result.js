@@ -139,6 +139,19 @@ export class Result {
 
   #seconds(frame) { return this.document.source.start_seconds + frame / this.document.frame_rate; }
 
+  /** Clips are made at the first request: wait until they are there, then let the browser save them. */
+  async #saveClips(event, id) {
+    event.preventDefault();
+    note('Writing the clips…');
+    try {
+      while (!(await api.clipsReady(id)));
+      note('');
+      window.location.assign(api.clips(id));
+    } catch (problem) {
+      note(problem.message);
+    }
+  }
+
   /** What does not move: counts, lists, links. */
   #say(document) {
     $('frames').textContent = whole(document.frames);
@@ -146,10 +159,12 @@ export class Result {
     $('timeline').setAttribute('aria-valuemax', document.frames - 1);
     $('summary').textContent = `${count(document.motions, 'motion')} · ${count(document.segments.length, 'segment')}`;
     this.#mark = listed(document, (index) => this.go(index));
-    for (const link of $('downloads').querySelectorAll('a')) {
+    for (const link of $('downloads').querySelectorAll('a[data-form]')) {
       link.href = api.download(document.id, link.dataset.form);
       link.download = `${document.id}.${link.dataset.form}`;
     }
+    $('clips').href = api.clips(document.id);
+    $('clips').onclick = (event) => this.#saveClips(event, document.id);
     const warnings = $('warnings');
     warnings.hidden = !document.warnings.length;
     warnings.querySelector('summary').textContent = count(document.warnings.length, 'thing to know', 'things to know');
