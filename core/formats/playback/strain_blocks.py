@@ -43,7 +43,10 @@ def patches(
     scale_invariant: bool,
     descriptor: Callable[[TriangleStrain], Surface] = lambda strain: strain,
 ) -> Patches:
-    """The patches to show, of strain or of a `descriptor` of the same triangles. A patch none of whose triangles can be strained is joined to its neighbour in number."""
+    """The patches to show, of strain or of another `descriptor` of the same triangles.
+
+    A patch none of whose triangles can be strained is joined to its neighbour in number.
+    """
     count = min(max(FILE_BYTES // frames, FEWEST_PATCHES), MOST_PATCHES)
     patch = patch_of_triangles(rest, triangles, count)
     strain = TriangleStrain.of(rest, triangles, np.argsort(patch, kind="stable"), measure, scale_invariant)

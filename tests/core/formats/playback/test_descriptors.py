@@ -1,0 +1,30 @@
+"""What is coloured is the descriptor that was chosen."""
+
+from typing import get_args
+
+import numpy as np
+import pytest
+
+from core.formats.playback.play import _patches
+from core.formats.playback.strain_blocks import strain_blocks
+from core.parameters import Parameters
+from core.pipeline import analyse
+from tests.animations import performing_bar
+from tests.core.formats.playback.test_play import unpacked
+
+
+@pytest.mark.parametrize("name", get_args(Parameters.model_fields["descriptor"].annotation))
+def test_the_chosen_descriptor_is_shown(name: str) -> None:
+    """Its bytes go from near 0 at the pose nearest to rest up to a good part of 255; pairs of points show nothing."""
+    animation = performing_bar([0], seconds=2.0, rings=12).animation
+    analysis = analyse(animation, Parameters(descriptor=name))
+    shown = _patches(animation, analysis)
+    if name == "pair-distances":
+        assert shown is None
+        return
+    assert shown is not None
+    header, blocks = unpacked(b"".join(strain_blocks(animation, shown, analysis.strain_scale)))
+    found = np.frombuffer(blocks, "u1").reshape(60, header["patches"])
+    assert header["patches"] > 64
+    assert found.max() > 100
+    assert found.mean(axis=1).min() < 40
