@@ -33,6 +33,9 @@ class Archive:
     Raises `BrokenContainer("malformed-npz")`, `UnsupportedMedia` for a zip of other things, or `LimitExceeded`.
     """
 
+    most_members = MOST_MEMBERS
+    longest_directory = LONGEST_DIRECTORY
+
     def __init__(self, file: BinaryIO, limits: Limits) -> None:
         self._file = file
         self._size = file.seek(0, 2)
@@ -93,8 +96,8 @@ class Archive:
         if at < 0 or len(tail) - at < END.size:
             raise malformed("has no directory at its end: it is cut off")
         _, _, _, _, members, length, _, _ = END.unpack_from(tail, at)
-        if members > MOST_MEMBERS or length > LONGEST_DIRECTORY:
-            raise malformed(f"has {members} members; {MOST_MEMBERS} are read at most")
+        if members > self.most_members or length > self.longest_directory:
+            raise malformed(f"has {members} members; {self.most_members} are read at most")
         if tail[max(at - 20, 0) : at].startswith(b"PK\6\7") and self._size <= ZIP64_FROM:
             raise malformed("has a directory for a larger file than it is")
 

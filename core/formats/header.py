@@ -4,6 +4,7 @@ An estimate that costs milliseconds whatever the file's size; the count of the r
 opened at all is refused here already.
 """
 
+import io
 from dataclasses import dataclass
 from typing import BinaryIO
 
@@ -17,6 +18,7 @@ from core.formats.gltf.summary import Clip, clips, size_of_scene
 from core.formats.notices import Notices
 from core.formats.sequence_members import check_shapes, members_by_use
 from core.formats.sniffing import SNIFFED, Format, sniff
+from core.formats.zip_files import ZipFiles, told_as_zip
 from core.limits import Limits
 
 MOST_JSON = 4 * 2**20
@@ -57,6 +59,8 @@ def read_header(file: BinaryIO, name: str, limits: Limits) -> Header:
     kind = sniff(file.read(SNIFFED))
     if kind == "npz":
         return _npz_header(file, name, limits)
+    if kind == "zip":
+        return _zip_header(file, name, limits)
     if kind == "bvh":
         return _bvh_header(file, name, limits)
     return _gltf_header(file, kind, name, limits)
@@ -96,6 +100,21 @@ def _bvh_header(file: BinaryIO, name: str, limits: Limits) -> Header:
     seconds = max(head.frames - 1, 0) / head.rate
     frames = int(min(frame_count(seconds, rate), MOST_FRAMES))
     return Header("bvh", name, (HeaderTake(0, "motion", seconds, frames, rate),), len(head.joints), 0)
+
+
+def _zip_header(file: BinaryIO, name: str, limits: Limits) -> Header:
+    """That of its model, if it is small enough to be read here, or the number of its shapes."""
+    files = ZipFiles(file, limits)
+    model = files.model()
+    if model is None:
+        frames = len(files.shapes())
+        return Header("zip", name, (HeaderTake(0, "vertices", (frames - 1) / ASSUMED, frames, ASSUMED),))
+    if files.members[model].file_size > MOST_JSON:
+        return Header("zip", name)
+    with told_as_zip(), files.inflate(model) as inner:
+        data = inner.read(MOST_JSON + 1)
+    found = read_header(io.BytesIO(data), name, limits)
+    return Header("zip", name, found.takes, found.vertices, found.triangles)
 
 
 def _npz_header(file: BinaryIO, name: str, limits: Limits) -> Header:

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import BinaryIO, cast
 
 import numpy as np
-from jaxtyping import Int, Shaped
+from jaxtyping import Float, Int, Shaped
 
 from core.animation import Animation, Take
 from core.errors import InvalidModel
@@ -45,14 +45,26 @@ def read_npz(
     rest = array("rest").astype(np.float32) if "rest" in names else None
     if rest is not None and not finite(rest):
         raise InvalidModel("non-finite-data", "The rest shape holds numbers that are not finite.", pointer="/rest")
-    frames_stored = headers["vertices"].shape[0]
+    return sequence(array("vertices"), triangles, rest, stored_rate, parameters, limits, notices)
+
+
+def sequence(
+    stored: Shaped[np.ndarray, "F V 3"],
+    triangles: Int[np.ndarray, "T 3"],
+    rest: Float[np.ndarray, "V 3"] | None,
+    stored_rate: float | None,
+    parameters: Parameters,
+    limits: Limits,
+    notices: Notices,
+) -> Animation:
+    """The animation of vertices that are there for every frame, at `stored_rate` frames a second if that is known."""
     rate, fps = _rates(parameters, stored_rate, notices)
-    duration = (frames_stored - 1) / rate
+    duration = (len(stored) - 1) / rate
     start, end = stretch(parameters, duration)
     frames = counted(limits, end - start, fps, len(triangles))
     return Animation(
-        vertices=VertexSequence(array("vertices"), rate / fps, _nearly_whole(start * rate)),
-        vertex_count=headers["vertices"].shape[1],
+        vertices=VertexSequence(stored, rate / fps, _nearly_whole(start * rate)),
+        vertex_count=stored.shape[1],
         triangles=triangles,
         rest=rest,
         frames=frames,
@@ -74,15 +86,16 @@ def _array(
     if archive.is_stored(name):
         start, stop = archive.place(name)
         piece = data[start:stop]
-        _check_sum(piece, archive.members[name].CRC, name)
+        check_sum(piece, archive.members[name].CRC, name)
     else:
-        piece = _inflated(archive, name, scratch(archive.members[name].file_size))
+        piece = inflated(archive, name, scratch(archive.members[name].file_size))
     return np.ndarray(
         header.shape, np.dtype(header.dtype), piece, header.bytes, order="F" if header.fortran_order else "C"
     )
 
 
-def _check_sum(piece: memoryview, expected: int, name: str) -> None:
+def check_sum(piece: memoryview, expected: int, name: str) -> None:
+    """Raise where a stored member is not what its checksum says."""
     check = 0
     for start in range(0, len(piece), PIECE):
         check = zlib.crc32(piece[start : start + PIECE], check)
@@ -90,7 +103,8 @@ def _check_sum(piece: memoryview, expected: int, name: str) -> None:
         raise malformed(f"has a wrong checksum for {name!r}: it is damaged")
 
 
-def _inflated(archive: Archive, name: str, room: memoryview) -> memoryview:
+def inflated(archive: Archive, name: str, room: memoryview) -> memoryview:
+    """One member, inflated into room of exactly the size that it states."""
     with archive.inflate(name) as file:
         filled = 0
         while filled < len(room) and (count := file.readinto(room[filled : filled + PIECE])):  # type: ignore[attr-defined]

@@ -12,6 +12,8 @@ from core.formats.gltf.read import read_gltf
 from core.formats.header import read_header
 from core.formats.npz import read_npz
 from core.formats.sniffing import SNIFFED, sniff
+from core.formats.zip_files import ZipFiles
+from core.formats.zipped import member, read_shapes
 from core.limits import Limits
 from core.parameters import Parameters
 
@@ -31,6 +33,14 @@ def read_animation(parts: Mapping[str, Part], parameters: Parameters, limits: Li
     model = main_part(views)
     data = views.pop(model)
     kind = sniff(bytes(data[:SNIFFED]))
+    if kind == "zip":
+        files = ZipFiles(cast("BinaryIO", BufferFile(data)), limits)
+        name = files.model()
+        if name is None:
+            return read_shapes(files, data, parameters, limits, scratch)
+        views = {called: member(files, other, data, scratch) for called, other in files.beside(name).items()}
+        data = member(files, name, data, scratch)
+        kind = sniff(bytes(data[:SNIFFED]))
     if kind == "npz":
         return read_npz(data, parameters, limits, scratch)
     if kind == "bvh":

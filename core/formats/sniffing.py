@@ -5,12 +5,12 @@ from typing import Literal
 
 from core.errors import UnsupportedMedia
 
-Format = Literal["glb", "gltf", "npz", "bvh"]
+Format = Literal["glb", "gltf", "npz", "bvh", "zip"]
 
 SNIFFED = 256
 """Bytes that are enough to tell."""
 
-READ = "glTF 2.0 (.glb, .gltf), BVH (.bvh) and NumPy archives (.npz)"
+READ = "glTF 2.0 (.glb, .gltf), BVH (.bvh), NumPy archives (.npz) and zips of them"
 
 OTHERS = {
     b"version https://git-lfs": "a Git LFS pointer, not the file it stands for; fetch it with git lfs pull",
@@ -35,13 +35,19 @@ def sniff(head: bytes) -> Format:
     if head.startswith(b"glTF"):
         return "glb"
     if head.startswith(b"PK"):
-        return "npz"
+        return "zip" if _begins_with_a_file(head) else "npz"
     text = head.removeprefix(codecs.BOM_UTF8).lstrip(b" \t\r\n")
     if text.startswith((b"{", b"[")) or head.startswith(WIDE):
         return "gltf"
     if text.startswith(b"HIERARCHY"):
         return "bvh"
     raise UnsupportedMedia("unsupported-media-type", f"The file is {_described(head, text)}. Read here are {READ}.")
+
+
+def _begins_with_a_file(head: bytes) -> bool:
+    """Whether the first member of a zip is something else than an array."""
+    name = head[30 : 30 + int.from_bytes(head[26:28], "little")]
+    return head.startswith(b"PK\3\4") and bool(name) and not name.endswith(b".npy")
 
 
 def _described(head: bytes, text: bytes) -> str:

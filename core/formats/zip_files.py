@@ -1,0 +1,89 @@
+"""A zip of files that belong together: a glTF and its buffers, or one shape for every frame. Light: no NumPy."""
+
+import re
+import zipfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import BinaryIO
+
+from core.errors import BrokenContainer, InvalidModel, UnsupportedMedia
+from core.formats.archive import ENCRYPTED, Archive, malformed
+from core.limits import Limits
+
+MODELS = (".gltf", ".glb", ".bvh")
+SHAPES = (".obj", ".ply")
+NUMBER = re.compile(r"(\d+)\D*$")
+
+
+class ZipFiles(Archive):
+    """The members of a zip by their exact names; nothing of it is ever written where a name says.
+
+    Raises `BrokenContainer("malformed-zip")` or `LimitExceeded`, by the directory alone.
+    """
+
+    most_members = 20_000
+    longest_directory = 4 * 2**20
+
+    def __init__(self, file: BinaryIO, limits: Limits) -> None:
+        with told_as_zip():
+            super().__init__(file, limits)
+
+    def model(self) -> str | None:
+        """The one glTF, GLB or BVH; None where there are shapes instead. Raises where it is not one, or nothing."""
+        models = [name for name in self.members if name.lower().endswith(MODELS)]
+        if len(models) > 1:
+            raise InvalidModel("ambiguous-upload", f"{len(models)} files of the zip are models. Send one at a time.")
+        if not models and not self.shapes():
+            raise UnsupportedMedia(
+                "unsupported-media-type",
+                "The zip holds no animation. Read are a .gltf or .glb with its buffers, numbered .obj or .ply files, "
+                "a .bvh, and NumPy archives.",
+            )
+        return models[0] if models else None
+
+    def shapes(self) -> list[str]:
+        """The OBJ or PLY files in the order of the numbers in their names; raises `mixed-frames` for both at once."""
+        found = [name for name in self.members if name.lower().endswith(SHAPES)]
+        if len({name.lower()[-4:] for name in found}) > 1:
+            raise InvalidModel("varying-topology", "The zip holds OBJ and PLY files. Send frames of one kind.")
+        return sorted(found, key=lambda name: (_number(name), name))
+
+    def beside(self, model: str) -> dict[str, str]:
+        """The other files in the folder of the model and below, by their names as the model calls them."""
+        folder = model.rpartition("/")[0]
+        start = len(folder) + 1 if folder else 0
+        return {name[start:]: name for name in self.members if name != model and name.startswith(folder)}
+
+    def _checked(self, limits: Limits) -> dict[str, zipfile.ZipInfo]:
+        members: dict[str, zipfile.ZipInfo] = {}
+        for info in self._zip.infolist():
+            name = info.filename
+            if info.flag_bits & ENCRYPTED:
+                raise malformed("is encrypted")
+            if name in members or name.startswith("/") or "\\" in name or ".." in name.split("/") or ":" in name:
+                raise malformed(f"has a member {name[:80]!r}, a path out of it or there twice")
+            if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+                raise malformed("is compressed in another way than deflate")
+            if info.compress_type == zipfile.ZIP_STORED and info.compress_size != info.file_size:
+                raise malformed(f"has two sizes for {name[:80]!r}")
+            if not info.is_dir() and not name.startswith("__MACOSX/"):
+                members[name] = info
+        limits.check(
+            "max_inflated_bytes", sum(info.file_size for info in members.values()), "Send fewer files at a time"
+        )
+        return members
+
+
+@contextmanager
+def told_as_zip() -> Iterator[None]:
+    """Say of a zip what is said of an archive of arrays."""
+    try:
+        yield
+    except BrokenContainer as wrong:
+        detail = wrong.detail.replace("Save it again with numpy.savez.", "Zip the files again.")
+        raise BrokenContainer("malformed-zip", detail) from None
+
+
+def _number(name: str) -> int:
+    found = NUMBER.search(name.rpartition(".")[0])
+    return int(found[1]) if found and len(found[1]) < 19 else -1
