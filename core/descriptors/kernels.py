@@ -96,8 +96,10 @@ MODERATE = np.float32(0.7)
 
 
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
-def _moderate_log_strains(rows: Floats, corners: Indices, shapes: Floats, scale: Floats, tile: Floats) -> None:
-    """tile[t, f] = log strain without a logarithm, good to a part in a million where a row stays within `MODERATE`.
+def _moderate_log_strains(
+    rows: Floats, corners: Indices, shapes: Floats, scale: Floats, tile: Floats, beyond: NDArray[np.bool_]
+) -> None:
+    """tile[t, f] = log strain without a logarithm, good to a part in a million up to `MODERATE`; rows that go beyond.
 
     With λ1 ≥ λ2 the squared stretches, ln²σ1 + ln²σ2 = (p² + q²) / 2 where p = atanh((λ1 λ2 − 1) / (λ1 λ2 + 1)) and
     q = atanh((λ1 − λ2) / (λ1 + λ2)). Both squares are rational in E, B and G: one division and one root a triangle.
@@ -110,6 +112,7 @@ def _moderate_log_strains(rows: Floats, corners: Indices, shapes: Floats, scale:
         per_c, shear = shapes[t, 1], shapes[t, 2]
         squared, doubled = shapes[t, 0] * shapes[t, 0], np.float32(2) * shapes[t, 0]
         strain = tile[t]
+        outside = np.float32(0)  # a float32, for a count of integers would be 64 bits wide and halve the vectors
         for f in range(strain.size):
             x1, y1, z1 = px[f] - ox[f], py[f] - oy[f], pz[f] - oz[f]
             x2, y2, z2 = qx[f] - ox[f], qy[f] - oy[f], qz[f] - oz[f]
@@ -127,16 +130,10 @@ def _moderate_log_strains(rows: Floats, corners: Indices, shapes: Floats, scale:
             per_both = np.float32(1) / (below_p * below_q)
             q = _atanh_squared(apart * below_p * per_both)
             p = _atanh_squared(above_p * below_q * per_both)
-            strain[f] = np.sqrt(np.float32(0.5) * (p + q))
-
-
-@njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy", inline="always")
-def _is_moderate(strain: Floats) -> bool:
-    """Whether every value is within `MODERATE`, which NaN is not."""
-    beyond = np.float32(0)  # a float32, for a count of integers would be 64 bits wide and halve the vectors
-    for f in range(strain.size):
-        beyond += np.float32(0) if strain[f] <= MODERATE else np.float32(1)
-    return bool(beyond == np.float32(0))
+            value = np.sqrt(np.float32(0.5) * (p + q))
+            strain[f] = value
+            outside += np.float32(0) if value <= MODERATE else np.float32(1)  # NaN is outside
+        beyond[t] = outside != np.float32(0)
 
 
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
@@ -175,12 +172,13 @@ def strain_tile(
     Which way a value is computed depends on the value alone, so that no bit depends on how frames fall into blocks.
     """
     larger, other = stretches[0], stretches[1]
+    beyond = np.ones(corners.shape[0], np.bool_)
     if measure == LOG:
-        _moderate_log_strains(rows, corners, shapes, scale, tile)
+        _moderate_log_strains(rows, corners, shapes, scale, tile, beyond)
     for t in range(corners.shape[0]):
-        strain = tile[t]
-        if measure == LOG and _is_moderate(strain):
+        if not beyond[t]:
             continue
+        strain = tile[t]
         _squared_stretches(rows, corners[t], shapes[t], scale, larger, other)
         if measure == LOG:
             for f in range(strain.size):
