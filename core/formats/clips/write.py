@@ -6,6 +6,7 @@ from mmap import mmap
 
 from core.animation import Animation
 from core.document import SegmentationDocument
+from core.formats.bvh.as_gltf import bvh_as_gltf
 from core.formats.clips.gltf_clips import gltf_clips, planned
 from core.formats.clips.key_poses import gltf_key_poses, sequence_key_poses
 from core.formats.clips.options import ClipOptions
@@ -39,20 +40,21 @@ def write_clips(parts: Parts, document: SegmentationDocument, options: ClipOptio
     Raises `ParameterError` where the options leave nothing, or name what there is not.
     """
     views = _views(parts)
-    if not _is_gltf(views):
+    gltf = _gltf(views)
+    if gltf is None:
         animation = _sequence(views, document, scratch)
         start = animation.start_seconds
         last = start + (animation.frames - 1) / animation.frame_rate
         whole = Stretch(0, 0, animation.frames, start, last, last)
         return Written(ZIP, sequence_clips(animation, plan(document, options, [whole])))
-    file = Replacement(views, animation_only=options.animation_only)
+    file = Replacement(gltf, animation_only=options.animation_only)
     made = planned(file, document, options)
     takes = {stretch.take for stretch in gltf_stretches(file, document)}
     if options.files == "one":
         return Written(GLB, gltf_clips(file, made, options, takes))
 
     def alone(clip: Clip) -> Iterator[bytes]:
-        yield from gltf_clips(Replacement(views, animation_only=options.animation_only), [clip], options, takes)
+        yield from gltf_clips(Replacement(gltf, animation_only=options.animation_only), [clip], options, takes)
 
     return Written(ZIP, zipped(((f"{clip.name}.glb", alone(clip)) for clip in made), deflated=True))
 
@@ -60,17 +62,23 @@ def write_clips(parts: Parts, document: SegmentationDocument, options: ClipOptio
 def write_key_poses(parts: Parts, document: SegmentationDocument, scratch: Scratch) -> Written:
     """The key-frames as a GLB whose one animation steps from pose to pose; raises `no-key-frames`."""
     views = _views(parts)
-    if not _is_gltf(views):
+    gltf = _gltf(views)
+    if gltf is None:
         return Written(GLB, sequence_key_poses(_sequence(views, document, scratch), document))
-    return Written(GLB, gltf_key_poses(Replacement(views), document))
+    return Written(GLB, gltf_key_poses(Replacement(gltf), document))
 
 
 def _views(parts: Parts) -> dict[str, memoryview]:
     return {name: memoryview(part).toreadonly() for name, part in parts.items()}
 
 
-def _is_gltf(views: dict[str, memoryview]) -> bool:
-    return sniff(bytes(views[main_part(views)][:SNIFFED])) in {"glb", "gltf"}
+def _gltf(views: dict[str, memoryview]) -> dict[str, memoryview] | None:
+    """The upload where it is a glTF, or what is read as one; None where it is vertices."""
+    data = views[main_part(views)]
+    kind = sniff(bytes(data[:SNIFFED]))
+    if kind == "bvh":
+        return {"motion.glb": memoryview(bvh_as_gltf(data, Limits.none()))}
+    return views if kind in {"glb", "gltf"} else None
 
 
 def _sequence(views: dict[str, memoryview], document: SegmentationDocument, scratch: Scratch) -> Animation:
