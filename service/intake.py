@@ -21,7 +21,7 @@ def keep(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tu
     The same files again are the same animation, whatever they are called now. Raises what the header's reader
     raises; nothing is kept then.
     """
-    main = _main(parts)
+    main = _main(backend, parts)
     header = _header(backend, main)
     described = [(part.name, part.bytes, part.sha256) for part in parts]
     identifier = ids.animation_id(backend.secret, owner, described)
@@ -49,7 +49,7 @@ def keep(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tu
     return kept, ours
 
 
-def _main(parts: tuple[Part, ...]) -> Part:
+def _main(backend: Backend, parts: tuple[Part, ...]) -> Part:
     """The file that holds the animation; the others are what it refers to, by name."""
     if not parts:
         raise Refusal("no-file", "The form holds no file. Send one with a filename, as curl -F file=@FILE does.")
@@ -59,12 +59,22 @@ def _main(parts: tuple[Part, ...]) -> Part:
     if twice is not None:
         raise Refusal("duplicate-part", f"Two files of the form are called {twice!r}. Send each once.")
     readable = [part for part in parts if _is_readable(part)]
+    if len(readable) == 2 and (motion := _motion(backend, readable)):
+        return motion
     if len(readable) != 1:
         names = ", ".join(part.name for part in readable) or "none"
         raise Refusal(
             "one-animation", f"An upload is one animation with the files it refers to; readable here: {names}."
         )
     return readable[0]
+
+
+def _motion(backend: Backend, pair: list[Part]) -> Part | None:
+    """Of a mesh and the motion for it in a file of its own, the latter."""
+    headers = [(part, _header(backend, part)) for part in pair]
+    animated = [(part, header) for part, header in headers if header.takes]
+    alone = animated if len(animated) == 1 else [(part, header) for part, header in animated if not header.triangles]
+    return alone[0][0] if len(alone) == 1 else None
 
 
 def _is_readable(part: Part) -> bool:

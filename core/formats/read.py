@@ -1,6 +1,7 @@
 """The one door for files: whatever is read becomes an Animation here."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from mmap import mmap
 from typing import BinaryIO, cast
 
@@ -11,6 +12,7 @@ from core.formats.bvh.as_gltf import bvh_as_gltf
 from core.formats.gltf.read import read_gltf
 from core.formats.header import read_header
 from core.formats.npz import read_npz
+from core.formats.pairing import paired
 from core.formats.sniffing import SNIFFED, sniff
 from core.formats.zip_files import ZipFiles
 from core.formats.zipped import member, read_shapes
@@ -30,6 +32,9 @@ def read_animation(parts: Mapping[str, Part], parameters: Parameters, limits: Li
     that is not there, `ParameterError`.
     """
     views = {name: memoryview(part).toreadonly() for name, part in parts.items()}
+    models = [name for name, part in views.items() if len(views) > 1 and _is_model(name, part)]
+    if len(models) == 2:
+        return _read_pair(views, models, parameters, limits)
     model = main_part(views)
     data = views.pop(model)
     kind = sniff(bytes(data[:SNIFFED]))
@@ -46,6 +51,21 @@ def read_animation(parts: Mapping[str, Part], parameters: Parameters, limits: Li
     if kind == "bvh":
         data = memoryview(bvh_as_gltf(data, limits))
     return read_gltf(data, views, parameters, limits)
+
+
+def _read_pair(views: dict[str, memoryview], models: list[str], parameters: Parameters, limits: Limits) -> Animation:
+    """The animation of a mesh in one file and its motion in another; a BVH may be the latter."""
+    first, second = (_as_gltf(views.pop(name), limits) for name in models)
+    pair = paired(first, second, limits)
+    animation = read_gltf(memoryview(pair.json), {**views, **pair.parts}, parameters, limits)
+    return replace(animation, notices=(pair.notice, *animation.notices))
+
+
+def _as_gltf(data: memoryview, limits: Limits) -> memoryview:
+    kind = sniff(bytes(data[:SNIFFED]))
+    if kind in {"npz", "zip"}:
+        raise InvalidModel("ambiguous-upload", "An archive is an animation of its own. Send it without other files.")
+    return memoryview(bvh_as_gltf(data, limits)) if kind == "bvh" else data
 
 
 def takes(parts: Mapping[str, Part], limits: Limits) -> tuple[Take, ...]:
