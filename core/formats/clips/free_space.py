@@ -1,7 +1,7 @@
 """Which accessors, views and bytes only the animations taken out have used, so that clips can take their place.
 
 Numbers in the JSON are never changed, for an extension may name an accessor or a view in ways that are not known
-here: any whole number within an extension is taken for the name of one.
+here: any whole number within one that is not known is taken for such a name.
 """
 
 from collections.abc import Iterable, Iterator
@@ -11,8 +11,12 @@ from typing import Any
 import numpy as np
 
 from core.formats.gltf.accessors import COMPONENTS, WIDTHS
+from core.formats.gltf.document import HARMLESS
 
 Range = tuple[int, int]
+
+UNDERSTOOD = {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}
+"""Extensions whose numbers are known for what they are."""
 
 
 def freed_accessors(json: dict[str, Any], removed: list[dict[str, Any]]) -> list[int]:
@@ -64,7 +68,8 @@ def numbers_in_extensions(value: Any, within: bool = False) -> Iterator[int]:
         yield value
     elif isinstance(value, dict):
         for name, below in value.items():
-            yield from numbers_in_extensions(below, within or name == "extensions")
+            if not (name in UNDERSTOOD or name.startswith(HARMLESS)):
+                yield from numbers_in_extensions(below, within or name == "extensions")
     elif isinstance(value, list):
         for below in value:
             yield from numbers_in_extensions(below, within)
@@ -77,7 +82,14 @@ def _opaque_views(json: dict[str, Any]) -> set[int]:
         n for n, v in enumerate(json.get("bufferViews", [])) if {"extensions", "byteStride"} & v.keys() or v["buffer"]
     }
     matrices = {a.get("bufferView", -1) for a in json.get("accessors", []) if a["type"].startswith("MAT")}
-    return named | odd | matrices | set(numbers_in_extensions(json))
+    return named | odd | matrices | _compressed(json) | set(numbers_in_extensions(json))
+
+
+def _compressed(json: dict[str, Any]) -> set[int]:
+    """Views with geometry compressed by Draco."""
+    primitives = [primitive for mesh in json.get("meshes", []) for primitive in mesh.get("primitives", [])]
+    found = [primitive.get("extensions", {}).get("KHR_draco_mesh_compression", {}) for primitive in primitives]
+    return {extension["bufferView"] for extension in found if "bufferView" in extension}
 
 
 def _accessors_of(animations: Iterable[dict[str, Any]]) -> Iterator[int]:

@@ -6,7 +6,7 @@ from mmap import mmap
 
 from core.animation import Animation
 from core.document import SegmentationDocument
-from core.formats.bvh.as_gltf import bvh_as_gltf
+from core.errors import InvalidModel
 from core.formats.clips.gltf_clips import gltf_clips, planned
 from core.formats.clips.key_poses import gltf_key_poses, sequence_key_poses
 from core.formats.clips.options import ClipOptions
@@ -39,10 +39,8 @@ def write_clips(parts: Parts, document: SegmentationDocument, options: ClipOptio
 
     Raises `ParameterError` where the options leave nothing, or name what there is not.
     """
-    views = _views(parts)
-    gltf = _gltf(views)
-    if gltf is None:
-        animation = _sequence(views, document, scratch)
+    gltf, animation = _opened(parts, document, scratch)
+    if animation is not None:
         start = animation.start_seconds
         last = start + (animation.frames - 1) / animation.frame_rate
         whole = Stretch(0, 0, animation.frames, start, last, last)
@@ -61,25 +59,25 @@ def write_clips(parts: Parts, document: SegmentationDocument, options: ClipOptio
 
 def write_key_poses(parts: Parts, document: SegmentationDocument, scratch: Scratch) -> Written:
     """The key-frames as a GLB whose one animation steps from pose to pose; raises `no-key-frames`."""
-    views = _views(parts)
-    gltf = _gltf(views)
-    if gltf is None:
-        return Written(GLB, sequence_key_poses(_sequence(views, document, scratch), document))
+    gltf, animation = _opened(parts, document, scratch)
+    if animation is not None:
+        return Written(GLB, sequence_key_poses(animation, document))
     return Written(GLB, gltf_key_poses(Replacement(gltf), document))
 
 
-def _views(parts: Parts) -> dict[str, memoryview]:
-    return {name: memoryview(part).toreadonly() for name, part in parts.items()}
+def _opened(
+    parts: Parts, document: SegmentationDocument, scratch: Scratch
+) -> tuple[Mapping[str, memoryview], Animation | None]:
+    """The glTF that the upload is or is read as, by its parts; or else its vertices."""
+    views = {name: memoryview(part).toreadonly() for name, part in parts.items()}
+    if _is_gltf(views):
+        return views, None
+    animation = read_animation(views, Parameters.model_validate(document.parameters), Limits.none(), scratch)
+    return ({}, animation) if animation.gltf is None else (animation.gltf, None)
 
 
-def _gltf(views: dict[str, memoryview]) -> dict[str, memoryview] | None:
-    """The upload where it is a glTF, or what is read as one; None where it is vertices."""
-    data = views[main_part(views)]
-    kind = sniff(bytes(data[:SNIFFED]))
-    if kind == "bvh":
-        return {"motion.glb": memoryview(bvh_as_gltf(data, Limits.none()))}
-    return views if kind in {"glb", "gltf"} else None
-
-
-def _sequence(views: dict[str, memoryview], document: SegmentationDocument, scratch: Scratch) -> Animation:
-    return read_animation(views, Parameters.model_validate(document.parameters), Limits.none(), scratch)
+def _is_gltf(views: dict[str, memoryview]) -> bool:
+    try:
+        return sniff(bytes(views[main_part(views)][:SNIFFED])) in {"glb", "gltf"}
+    except InvalidModel:  # a mesh and its motion, in a file each
+        return False

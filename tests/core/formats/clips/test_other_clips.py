@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from core.errors import InvalidModel
-from tests.core.formats.clips.making import chunks_of, clips_of, cut_at, key_poses_of
+from tests.core.formats.clips.making import chunks_of, clips_of, cut_at, key_poses_of, names_of
 from tests.core.formats.opening import opened
 from tests.glb import bending_strip
 
@@ -76,3 +76,19 @@ def test_no_key_frames_are_no_file():
     with pytest.raises(InvalidModel, match="threshold") as refused:
         key_poses_of(data, cut_at(opened(data, fps=30), [12]).model_copy(update={"key_frames": ()}))
     assert refused.value.code == "no-key-frames"
+
+
+def test_a_bvh_comes_back_as_clips_of_its_skeleton():
+    """What is read as a glTF is written as one."""
+    frames = "\n".join(f"{i} 0 0 {i * 3} 0 0" for i in range(20))
+    data = (
+        "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\n"
+        "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n"
+        f"End Site\n{{\nOFFSET 0 1 0\n}}\n}}\nMOTION\nFrames: 20\nFrame Time: 0.0333333\n{frames}\n"
+    ).encode()
+    take = opened(data, fps=30)
+    document = cut_at(take, [8])
+    glb = clips_of(data, document)
+    assert names_of(glb) == ["A_01", "B_01"]
+    clip = opened(glb, take="B_01", fps=30)
+    np.testing.assert_allclose(clip.vertices(0, clip.frames), take.vertices(8, 8 + clip.frames), atol=1e-5)
