@@ -1,0 +1,89 @@
+"""The energy curve alone, from vertices in memory: the pipeline's steps without the features."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Float
+
+from core.animation import Animation
+from core.blocks import blocks_of, frames_per_block
+from core.body import NO_PATCHES, Body
+from core.codes import CODES, normaliser
+from core.drawing import draw
+from core.energy import energy_curve, window_frames
+from core.parameters import Parameters
+from core.pipeline import CODES_BYTES
+from core.rest import rest_shape
+from core.survey import Survey, survey
+
+LEVELS = 10
+
+
+@dataclass(frozen=True)
+class Curve:
+    """One take, prepared. `memory_bytes` 0 computes strain twice."""
+
+    animation: Animation
+    threads: int = 2
+    memory_bytes: int = CODES_BYTES
+
+    @cached_property
+    def whole(self) -> Body:
+        """All that the pipeline measures."""
+        return Body.of(self.animation, rest_shape(self.animation, "bind"), Parameters())[0]
+
+    @cached_property
+    def bare(self) -> Body:
+        """Strain, and nothing else."""
+        pairs = self.whole.pairs
+        none = replace(pairs, first=pairs.first[:0], second=pairs.second[:0], at_rest=pairs.at_rest[:0])
+        return replace(self.whole, patches=NO_PATCHES, pairs=none)
+
+    @property
+    def window(self) -> int:
+        """Frames of a window."""
+        return window_frames("modified", Parameters().window_seconds, self.animation.frame_rate)
+
+    def surveyed(self) -> Survey:
+        """The pass over the vertices."""
+        return survey(self.animation, self.bare, threads=self.threads, memory_bytes=self.memory_bytes)
+
+    def scale(self, take: Survey) -> float:
+        """The strain that counts as 1."""
+        coding = take.surveyor.coding
+        return normaliser("p99.9", coding, take.histogram, take.largest, take.share_above_noise)
+
+    def energy(self) -> Float[np.ndarray, "frames"]:
+        """The curve."""
+        take = self.surveyed()
+        bins = take.bins(self.scale(take), LEVELS, self.threads)
+        return energy_curve(bins, self.animation.frames, self.window, LEVELS, self.threads)
+
+    def stages(self) -> dict[str, Callable[[], object]]:
+        """Each step of a whole analysis's passes by itself, over the whole take, on one thread."""
+        take, body = self.surveyed(), self.whole
+        blocks = blocks_of(self.animation.frames, frames_per_block(self.animation.vertex_count))
+        bins, scale = list(take.bins(self.scale(take), LEVELS)), self.scale(take)
+        drawn = [self.animation.vertices(*block) for block in blocks]
+        histogram, noise, floor = np.zeros(CODES, np.int32), take.surveyor.noise, take.surveyor.floor
+        columns, tile = max(((c, t.copy()) for c, t in body.surface.tiles(drawn[0])), key=lambda pair: pair[1].size)
+        codes, means = np.empty(tile.shape, np.uint16), body.patches.empty(len(drawn[0]))
+        times = range(self.animation.frames * body.surface.columns // tile.size)
+
+        def means_on_patches() -> None:
+            for _ in times:
+                body.patches.add(columns, tile, means)
+
+        return {
+            "check that every coordinate is a number": lambda: [draw(self.animation, block) for block in blocks],
+            "gather vertices, strain": lambda: [0 for vertices in drawn for _ in body.surface.tiles(vertices)],
+            "code, count codes": lambda: [
+                take.surveyor.coding.read(tile, noise[columns], floor, codes, histogram) for _ in times
+            ],
+            "bins": lambda: list(take.bins(scale, LEVELS)),
+            "joint counts, entropy": lambda: energy_curve(bins, self.animation.frames, self.window, LEVELS),
+            "means on patches": means_on_patches,
+            "pair distances": lambda: [body.pairs.measure(vertices) for vertices in drawn],
+        }

@@ -1,0 +1,196 @@
+"""How fast the energy curve and the whole method are, beside `np.copyto` of the same vertices and plain NumPy.
+
+    python -m benchmarks.speed            # minutes; writes docs/performance.md and docs/performance.svg
+    python -m benchmarks.speed --quick    # under 40 s; prints alone
+
+Every figure is a ratio of things measured in the same run, on two threads, best of several alternating turns, in
+processor time per thread: other programs disturb it less than the clock, and an idle machine shows the same by both.
+Ends with status 1 where a ratio misses its bound.
+"""
+
+import argparse
+import sys
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from benchmarks.curve import Curve
+from benchmarks.growth import Series, drawn
+from benchmarks.numpy_twin import twin
+from benchmarks.stopwatch import AnonymousPeak, least
+from benchmarks.tube import Tube
+from core.blocks import blocks_of
+from core.keyframes import local_maxima
+from core.parameters import Parameters
+from core.pipeline import segment
+
+THREADS = 2
+DOCS = Path(__file__).parent.parent / "docs"
+TWIN_FRAMES = 320
+QUICK_GROWTH = ((1_000, 5_000), (8_000, 5_000), (256, 20_000), (256, 80_000))
+GROWTH = (
+    *((frames, 5_000) for frames in (1_000, 4_000, 16_000, 64_000)),
+    *((256, triangles) for triangles in (5_000, 20_000, 100_000, 500_000)),
+)
+
+
+class Row(NamedTuple):
+    """A measure, what it came to, and its bound: `most` or, where that is None, `least`; without both, only told."""
+
+    measure: str
+    value: float
+    most: float | None = None
+    least: float | None = None
+
+    @property
+    def holds(self) -> bool:
+        """Whether the bound is kept."""
+        return (self.most is None or self.value <= self.most) and (self.least is None or self.value >= self.least)
+
+
+def copying(tube: Tube) -> Callable[[], object]:
+    """`np.copyto` of the vertices on two threads."""
+    target = np.zeros_like(tube.vertices)
+    halves = blocks_of(len(target), (len(target) + 1) // THREADS)
+    pool = ThreadPoolExecutor(THREADS)
+    return lambda: list(pool.map(lambda half: np.copyto(target[slice(*half)], tube.vertices[slice(*half)]), halves))
+
+
+def against_copy(turns: int, frames: int) -> Iterator[Row]:
+    """The curve over the copy: codes in memory, streaming, shuffled, large; and the whole method over the curve."""
+    tube = Tube.of(frames, 5_700)
+    curve, told = Curve(tube.animation(frames)), Parameters.parse({"motions": 4})
+    costs = least(
+        {
+            "copy": copying(tube),
+            "curve": curve.energy,
+            "streaming": Curve(curve.animation, memory_bytes=0).energy,
+            "shuffled": Curve(tube.shuffled().animation(frames)).energy,
+            "whole": lambda: segment(curve.animation, told, threads=THREADS),
+        },
+        turns,
+    )
+    size = f"{frames:,} × 5,700"
+    copy, ours = costs["copy"].busy, costs["curve"].busy
+    yield Row(f"energy curve over np.copyto, {size}", ours / copy, most=7)
+    yield Row("the same by the clock of this machine", costs["curve"].clock / costs["copy"].clock)
+    yield Row("the same, strain computed twice", costs["streaming"].busy / copy, most=10)
+    yield Row("the same, vertices in shuffled order", costs["shuffled"].busy / copy)
+    yield Row("whole default method, K given, over the curve alone", costs["whole"].busy / ours, most=6)
+
+
+def against_copy_of_large(turns: int, triangles: int) -> Iterator[Row]:
+    """A large mesh for a short time."""
+    tube = Tube.of(300, triangles)
+    costs = least({"copy": copying(tube), "curve": Curve(tube.animation(300)).energy}, turns)
+    ratio = costs["curve"].busy / costs["copy"].busy
+    yield Row(f"energy curve over np.copyto, 300 × {triangles:,}, coherent order", ratio, most=8)
+
+
+def against_twin(turns: int) -> Iterator[Row]:
+    """Speed and digits beside NumPy in float64, on one thread each and on the same vertices."""
+    tube = Tube.of(TWIN_FRAMES, 5_700)
+    curve = Curve(tube.animation(TWIN_FRAMES), THREADS)
+    costs = least(
+        {"twin": lambda: twin(tube.vertices, tube.rest, tube.triangles, curve.window), "curve": curve.energy}, turns
+    )
+    exact, found = twin(tube.vertices, tube.rest, tube.triangles, curve.window), curve.energy()
+    take = curve.surveyed()
+    columns = take.surveyor.body.surface.triangles  # type: ignore[attr-defined]  # a tube is strained by its triangles
+    strain = np.concatenate([t.T.copy() for _, t in curve.bare.surface.tiles(tube.vertices[:64])], axis=1)
+    error = np.abs(strain - exact.strain[:64, columns]) / exact.scale
+    apart = float(np.nanmax(np.abs(found - exact.energy)))
+    same = np.array_equal(local_maxima(found), local_maxima(exact.energy))
+    yield Row(
+        "times faster than NumPy, two threads against one", costs["twin"].busy / costs["curve"].busy * 2, least=45
+    )
+    yield Row("strain, of the normaliser, 99.99 % of values within", float(np.percentile(error, 99.99)), most=1e-4)
+    yield Row("strain, of the normaliser, all values within", float(error.max()), most=1e-3)
+    yield Row("energy within", apart, most=1e-3)
+    yield Row("share of takes with the same peaks", float(same), least=1)
+
+
+def growth(sizes: tuple[tuple[int, int], ...], turns: int) -> tuple[list[Row], list[Series]]:
+    """Time per triangle-frame as frames and triangles grow, and the most memory on the way."""
+    points: dict[tuple[int, int], float] = {}
+    rows = []
+    for frames, triangles in sizes:
+        tube = Tube.of(frames, triangles)
+        curve = Curve(tube.animation(frames))
+        if not points:
+            curve.energy()  # compiled code is loaded by the first, which is not what is measured
+        with AnonymousPeak() as peak:
+            points[frames, triangles] = least({"curve": curve.energy}, turns)["curve"].busy / THREADS
+        if frames == max(m for m, _ in sizes):
+            rows.append(
+                Row(f"MB of anonymous memory beyond input, {frames:,} × {triangles:,}", peak.bytes / 1e6, most=256)
+            )
+    per_value = {size: seconds / (size[0] * size[1]) * 1e9 for size, seconds in points.items()}
+    rows += [Row(f"ns a triangle-frame, {m:,} × {t:,}", cost) for (m, t), cost in per_value.items()]
+    series = []
+    for name, fixed in (("frames", 1), ("triangles", 0)):
+        line = [size for size in sizes if sum(size[fixed] == other[fixed] for other in sizes) > 1]
+        costs = [per_value[size] for size in line]
+        rows.append(
+            Row(f"largest over smallest time a triangle-frame, as {name} grow", max(costs) / min(costs), most=1.4)
+        )
+        series.append(Series(f"as {name} grow", [(size[0] * size[1], points[size]) for size in line]))
+    return rows, series
+
+
+def breakdown(turns: int, frames: int) -> Iterator[Row]:
+    """Each step alone, on one thread."""
+    tube = Tube.of(frames, 5_700)
+    for name, cost in least(Curve(tube.animation(frames)).stages(), turns).items():
+        yield Row(f"step, ns a triangle-frame: {name}", cost.busy / (frames * len(tube.triangles)) * 1e9)
+
+
+def table(rows: list[Row]) -> str:
+    """The rows as Markdown."""
+    lines = ["| measure | found | bound | |", "|---|---:|---:|---|"]
+    for row in rows:
+        bound = f"≤ {row.most:g}" if row.most is not None else f"≥ {row.least:g}" if row.least is not None else ""
+        lines.append(f"| {row.measure} | {row.value:.3g} | {bound} | {'' if row.holds else 'missed'} |")
+    return "\n".join(lines)
+
+
+def page(rows: list[Row]) -> str:
+    """docs/performance.md."""
+    return "\n".join(
+        [
+            "# How fast it is",
+            "",
+            "Written by `python -m benchmarks.speed`. " + " ".join((__doc__ or "").split("\n\n")[2].split("\n")),
+            "A bound that is missed stays in the table. The take is a bending tube in memory (`benchmarks/tube.py`);",
+            "a triangle-frame is one triangle in one frame.",
+            "",
+            table(rows),
+            "",
+            "![Time against triangle-frames, on logarithmic scales](performance.svg)",
+            "",
+        ]
+    )
+
+
+def main() -> None:
+    """Measures, prints the table, writes the page unless quick, and says by the status whether every bound holds."""
+    options = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
+    options.add_argument("--quick", action="store_true", help="smaller and fewer; writes nothing")
+    quick = options.parse_args().quick
+    turns, frames = (2, 1_280) if quick else (5, 4_580)
+    rows = [*against_copy(turns, frames), *against_copy_of_large(turns, 50_000 if quick else 200_000)]
+    rows += [*against_twin(1 if quick else 3), *breakdown(turns, 640)]
+    grown, series = growth(QUICK_GROWTH if quick else GROWTH, 1 if quick else 3)
+    rows += grown
+    if not quick:
+        (DOCS / "performance.svg").write_text(drawn(series), encoding="utf-8")
+        (DOCS / "performance.md").write_text(page(rows), encoding="utf-8")
+    print(table(rows))
+    sys.exit(0 if all(row.holds for row in rows) else 1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,24 @@
+"""The pass over the vertices, where the frames looked at beforehand mislead."""
+
+import numpy as np
+import pytest
+
+from core.animation import Animation, Take
+from core.descriptors.projection import sample_frames
+from core.glance import FRAMES
+from core.parameters import Parameters
+from core.pipeline import analyse
+
+SQUARE = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], np.float32)
+
+
+def test_the_percentile_is_right_though_the_frames_looked_at_are_nothing_like_the_rest() -> None:
+    """They are strained most of all, and are too few for the percentile to be among them."""
+    frames = 33_000
+    stretch = 1 + 0.05 * np.random.default_rng(0).random(frames)
+    stretch[sample_frames(frames, FRAMES)] = 1.8
+    vertices = (stretch[:, None, None] * SQUARE).astype(np.float32)
+    take = Take(0, "", frames / 30, frames, 30.0)
+    square = Animation(lambda a, b: vertices[a:b], 4, np.array([[0, 1, 2], [1, 3, 2]]), SQUARE, frames, 30.0, take)
+    expected = np.percentile(np.sqrt(2) * np.log(np.repeat(stretch, 2)), 99.9)
+    assert analyse(square, Parameters()).strain_scale == pytest.approx(expected, rel=1e-4)
