@@ -3,6 +3,7 @@
 import pytest
 
 from core.limits import Limits
+from core.parameters import TOLD_MOTIONS
 from tests.service.conftest import UPLOAD_LIMIT
 
 
@@ -15,8 +16,9 @@ def test_each_method_comes_with_the_schema_of_its_parameters(idle):
     for method in answer["methods"]:
         assert method["description"]
         assert method["parameters"]["properties"]["method"]["const"] == method["name"]
-        motions = method["parameters"]["properties"]["motions"]
-        assert motions.get("default") == "auto" or "motions" in method["parameters"]["required"]
+        needed = "motions" in method["parameters"].get("required", ())
+        assert needed == (method["name"] in TOLD_MOTIONS)
+        assert needed or method["parameters"]["properties"]["motions"]["default"] == "auto"
 
 
 def test_limits_are_those_of_this_installation(idle):
