@@ -10,6 +10,9 @@ Codes = NDArray[np.uint16]
 Bins = NDArray[np.uint8]
 
 
+RUN = 2048
+"""Values that stay in the nearest cache while they are passed over several times."""
+
 SHIFT = 11
 """Bits of a float32 that a code leaves out: 12 of the 23 of its mantissa stay."""
 
@@ -59,15 +62,19 @@ def read_tile(
 
 @njit(nogil=True, cache=True)
 def digitize(codes: Codes, edges: Codes, bins: Bins) -> None:
-    """bins[t, f] = how many edges codes[t, f] is above; `edges` come in threes, so that bins are passed over less."""
-    for t in range(codes.shape[0]):
-        row, out = codes[t], bins[t]
-        for f in range(row.size):
-            out[f] = 0
+    """bins[t, f] = how many edges codes[t, f] is above; `edges` come in threes, so that bins are passed over less.
+
+    Rows do not matter here, and short ones would not fill a vector: both arrays are read as runs of `RUN`.
+    """
+    every, out = codes.reshape(-1), bins.reshape(-1)
+    for start in range(0, every.size, RUN):
+        run, count = every[start : start + RUN], out[start : start + RUN]
+        for f in range(run.size):
+            count[f] = 0
         for i in range(0, edges.size, 3):
             first, second, third = edges[i], edges[i + 1], edges[i + 2]
-            for f in range(row.size):
-                out[f] += np.uint8(row[f] > first) + np.uint8(row[f] > second) + np.uint8(row[f] > third)
+            for f in range(run.size):
+                count[f] += np.uint8(run[f] > first) + np.uint8(run[f] > second) + np.uint8(run[f] > third)
 
 
 @njit(nogil=True, cache=True)
