@@ -50,7 +50,7 @@ def choose_animation(document: Document, accessors: Accessors, wanted: str | int
             f"{len(document.nodes)} nodes. Export it with its animations.",
         )
     names = take_names(document)
-    place = choose_take(names, wanted)
+    place = choose_take(names, wanted) if len(names) > 1 or wanted != "longest" else 0
     if place is None:
         lengths = [last_key(accessors, read_channels(document, accessors, entry)) for entry in animations]
         place = max(range(len(animations)), key=lengths.__getitem__)
