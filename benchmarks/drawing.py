@@ -4,13 +4,16 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
+from jaxtyping import Int
 
 from benchmarks.cmu import Annotation
+from core.agreement import cuts_of
 from core.segmentation import Segmentation
 
 WIDTH, CURVE, BAR, GAP, LEFT = 960, 170, 26, 10, 70  # pixels
 COLOURS = ("#4477aa", "#ccbb44", "#ee6677", "#228833", "#66ccee", "#aa3377")  # Tol's bright scheme, colour-blind safe
 INK = "#222222"
+LEFT_OF_BARS = 40  # pixels more for names of methods
 
 
 def drawn(found: Segmentation, truth: Annotation) -> str:
@@ -33,6 +36,35 @@ def drawn(found: Segmentation, truth: Annotation) -> str:
             "</svg>\n",
         ]
     )
+
+
+Labels = Int[np.ndarray, "frames"]
+
+
+def bars(labelled: Sequence[tuple[str, str, Labels, Labels]]) -> str:
+    """As the paper's figure 6: under each take's truth a bar for each method. Take, method, truth and labels.
+
+    The colours of found motions are those of the true motions they cover most.
+    """
+    parts: list[str] = []
+    y = GAP
+    for take in dict.fromkeys(row[0] for row in labelled):
+        of_take = [row for row in labelled if row[0] == take]
+        truth = of_take[0][2]
+        parts.append(_text(LEFT_OF_BARS, y + 13, take, "start"))
+        y += 18
+        for name, labels in (("truth", truth), *((row[1], row[3]) for row in of_take)):
+            bounds = [0, *cuts_of(labels).tolist(), len(labels)]
+            shown = {m: int(np.bincount(truth[labels == m]).argmax()) for m in np.unique(labels).tolist()}
+            motions = [shown[int(labels[a])] for a in bounds[:-1]]
+            parts += [f'<g transform="translate({LEFT_OF_BARS} 0)">', *_bar(name, y, bounds, motions, [], len(truth))]
+            parts.append("</g>")
+            y += BAR + 3
+        y += GAP
+    size = f"0 0 {LEFT_OF_BARS + LEFT + WIDTH + 20} {y}"
+    look = f'font-family="sans-serif" font-size="13" fill="{INK}"'
+    head = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{size}" {look}>']
+    return "\n".join([*head, '<rect width="100%" height="100%" fill="white"/>', *parts, "</svg>\n"])
 
 
 def _curve(found: Segmentation, frames: int) -> list[str]:
