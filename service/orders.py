@@ -50,6 +50,7 @@ async def json_order(request: Request) -> Order:
         raise ParameterError("misplaced-parameter", detail, parameter=next(iter(request.query_params)))
     try:
         given = json.loads(bytes(text))
+        json.dumps(given, ensure_ascii=False).encode()  # half a surrogate pair is no text: no key and no answer
     except (ValueError, RecursionError):
         raise Refusal("malformed-json", "The body is no JSON, though its Content-Type says so.") from None
     if not isinstance(given, dict):

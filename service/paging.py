@@ -2,6 +2,7 @@
 
 import base64
 import binascii
+import math
 from typing import Annotated
 
 from fastapi import Query
@@ -25,7 +26,10 @@ def created_before(cursor: str) -> float | None:
     if not cursor:
         return None
     try:
-        return float(base64.urlsafe_b64decode(cursor + "=" * (-len(cursor) % 4)))
+        created = float(base64.urlsafe_b64decode(cursor + "=" * (-len(cursor) % 4)))
     except (ValueError, binascii.Error):
+        created = math.nan
+    if not math.isfinite(created):
         detail = f"cursor = {cursor!r} is none of ours. Take it from `next` of a page, or leave it out."
-        raise ParameterError("invalid-parameter", detail, parameter="cursor") from None
+        raise ParameterError("invalid-parameter", detail, parameter="cursor")
+    return created

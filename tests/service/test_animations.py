@@ -41,9 +41,10 @@ def test_animations_are_listed_by_pages_newest_first(service, take):
     assert len(set(listed)) == len(listed)
 
 
-def test_a_cursor_that_no_page_gave_is_refused(service):
+@pytest.mark.parametrize("cursor", ["!", "bmFu", "aW5m"], ids=["no base64", "nan", "inf"])
+def test_a_cursor_that_no_page_gave_is_refused(service, cursor):
     """422, naming the parameter."""
-    answer = service.http.get("/v1/animations", params={"cursor": "!"})
+    answer = service.http.get("/v1/animations", params={"cursor": cursor})
     assert answer.status_code == 422
     assert answer.json()["parameter"] == "cursor"
 

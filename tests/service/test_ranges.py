@@ -18,6 +18,9 @@ from service.ranges import requested
         ("bytes=-", None),
         ("bytes=0-1,5-6", None),
         ("lines=0-1", None),
+        (f"bytes={'9' * 5000}-", None),
+        (f"bytes=-{'9' * 5000}", None),
+        (f"bytes=0-{'9' * 5000}", None),
     ],
 )
 def test_a_range_is_read(header, wanted):

@@ -134,6 +134,8 @@ def test_wrong_parameters_are_refused_before_the_upload(idle, query, code, named
     [
         (b"[", 400, "malformed-json"),
         (b"[1]", 400, "malformed-json"),
+        (b'{"animation": "\\ud800"}', 400, "malformed-json"),
+        (b'{"animation": "x", "\\ud800": 1}', 400, "malformed-json"),
         (b"[" * 60_000, 400, "malformed-json"),
         (b"{}", 422, "missing-parameter"),
         (b'{"animation": 5}', 422, "invalid-parameter"),
