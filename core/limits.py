@@ -6,6 +6,9 @@ from core.errors import LimitExceeded
 
 UNLIMITED = 2**62
 
+MOST_TOLD = 1e300
+"""What a refusal says of anything larger: JSON has no infinity."""
+
 
 class Limits(BaseModel):
     """Bounds checked before anything is allocated. Every field is a setting, `CAESURA_` + its name in capitals."""
@@ -39,6 +42,7 @@ class Limits(BaseModel):
         limit = getattr(self, name)
         if actual <= limit:
             return
+        actual = min(MOST_TOLD, actual)  # in this order: also of what is infinite, no number, or an int of 400 digits
         what = type(self).model_fields[name].description
         setting = f"CAESURA_{name.upper()}"
         sentence = f"{actual:g} {what} are over the limit of {limit:g}. "

@@ -124,6 +124,6 @@ def _npz_header(file: BinaryIO, name: str, limits: Limits) -> Header:
     check_shapes(headers, members, limits)
     frames, vertices, _ = headers["vertices"].shape
     rate = archive.number(members["frame_rate"]) if "frame_rate" in members else ASSUMED
-    rate = rate if 0 < rate < MOST_FRAMES else ASSUMED
+    rate = rate if 1 / MOST_FRAMES < rate < MOST_FRAMES else ASSUMED
     take = HeaderTake(0, "vertices", (frames - 1) / rate, frames, rate)
     return Header("npz", name, (take,), vertices, headers["triangles"].shape[0])

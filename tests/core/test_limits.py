@@ -1,5 +1,8 @@
 """Limits are checked before anything is allocated, and say how to go on."""
 
+import json
+import math
+
 import pytest
 
 from core.errors import LimitExceeded
@@ -28,3 +31,11 @@ def test_ones_own_machine_has_no_limits() -> None:
     """But for what no machine has."""
     for name in Limits.model_fields:
         Limits.none().check(name, 1e15)
+
+
+@pytest.mark.parametrize("actual", [math.inf, math.nan, 10**400, 10**4299])
+def test_what_json_cannot_say_is_told_as_a_number(actual: float) -> None:
+    """A refusal is a problem document, however far over the limit: without infinity, NaN or hundreds of digits."""
+    with pytest.raises(LimitExceeded) as refused:
+        Limits().check("max_frames", actual)
+    assert json.loads(json.dumps(refused.value.problem(), allow_nan=False))["actual"] > 1e200

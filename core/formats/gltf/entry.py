@@ -26,7 +26,8 @@ class Entry:
 
     def refusal(self, detail: str, code: str = "invalid-gltf", name: str | None = None) -> InvalidModel:
         """The error that says `detail` of this object, or of its member `name`."""
-        return InvalidModel(code, detail, pointer=self.pointer if name is None else f"{self.pointer}/{name}")
+        place = self.pointer if name is None else f"{self.pointer}/{name}"
+        return InvalidModel(code, _text(detail), pointer=_text(place))
 
     def index(self, name: str, count: int, of: str, code: str = "invalid-gltf") -> int:
         """The member `name`, which must be one of 0 … count - 1: a place in the list called `of`."""
@@ -42,14 +43,13 @@ class Entry:
             raise self.refusal(f"{name} must be a whole number, not {_shown(value)}.", name=name)
         if value < 0:
             raise self.refusal(f"{name} must not be negative, as {_shown(value)} is.", code, name)
-        return value
+        return min(value, BEYOND)
 
     def text(self, name: str, default: str | None = None) -> str:
         """The member `name`, a string; its absence is `default`, unless that is None."""
         value = self.value.get(name, default)
         if isinstance(value, str):
-            # A lone surrogate is legal in JSON and cannot be written as UTF-8.
-            return value.encode("utf-8", "replace").decode("utf-8")
+            return _utf8(value)
         raise self.refusal(f"{name} must be text, not {_shown(value)}.", name=name)
 
     def choice(self, name: str, known: tuple[str, ...], default: str | None = None) -> str:
@@ -119,6 +119,23 @@ class Entry:
 
 
 FLOAT32_MAX = 3.4028234663852886e38
+
+BEYOND = 2**100
+"""What stands for any larger number: no file reaches it, and Python can still divide and print it."""
+
+
+LONGEST = 500
+"""Letters of a refusal: names in a file may be as long as the file."""
+
+
+def _utf8(text: str) -> str:
+    """A lone surrogate is legal in JSON and cannot be written as UTF-8."""
+    return text.encode("utf-8", "replace").decode("utf-8")
+
+
+def _text(told: str) -> str:
+    """What a person is told, however the names in it are made."""
+    return _utf8(told if len(told) <= LONGEST else f"{told[:LONGEST]}…")
 
 
 def _shown(value: Any) -> str:

@@ -36,7 +36,10 @@ class KeyTimes:
         self._reads += 1
         count = min(accessor["count"], MOST_KEYS)
         self._file.seek(self._start + place)
-        times = struct.unpack(f"<{count}f", self._file.read(4 * count))
+        data = self._file.read(4 * count)
+        if len(data) < 4 * count:  # the chunk is longer than the file
+            return ()
+        times = struct.unpack(f"<{count}f", data)
         return times if all(0 <= a <= b <= FLOAT32_MAX for a, b in pairwise((0.0, *times))) else ()
 
     def _place(self, accessor: Any) -> int | None:

@@ -105,3 +105,22 @@ def test_reading_headers_loads_no_numerics() -> None:
     """The web process reads headers, and must stay small."""
     script = "import sys, core.formats.header; sys.exit(any(m in sys.modules for m in ('numpy', 'numba', 'scipy')))"
     subprocess.run([sys.executable, "-c", script], check=True)
+
+
+def test_keys_beyond_the_end_of_the_file_tell_nothing() -> None:
+    """A binary chunk may state more bytes than there are: what is wrong with that is the reader's to say."""
+    model = square()
+    model.animate(0, "scale", np.arange(4) / 24, np.ones((4, 3)))
+    model.json["bufferViews"][2]["byteOffset"] = 10**6
+    data = bytearray(model.glb())
+    start = 20 + int.from_bytes(data[12:16], "little")
+    data[start : start + 4] = (2**32 - 1).to_bytes(4, "little")
+    (take,) = header(bytes(data)).takes
+    assert take.duration_seconds == 0
+
+
+@pytest.mark.parametrize("rate", [0.0, 5e-324, 1e-300, 1e300, -1.0, np.nan, np.inf])
+def test_a_rate_that_is_none_leaves_a_take_that_can_be_told(rate: float) -> None:
+    """Seconds are a finite number, as JSON needs, whatever the file says of its rate."""
+    (take,) = header(archive(vertices=np.zeros((11, 4, 3)), triangles=np.zeros((2, 3), int), frame_rate=rate)).takes
+    assert (take.frame_rate, take.frames) == (30.0, 11)

@@ -111,6 +111,7 @@ FAULTS: list[tuple[str, bytes, str]] = [
     ("NaN rest", npz(rest=NAN[4]), "non-finite-data"),
     ("rate 0", npz(frame_rate=0), "invalid-frame-rate"),
     ("rate NaN", npz(fps=np.nan), "invalid-frame-rate"),
+    ("rate so low that its take has no end", npz(frame_rate=5e-324), "animation-too-long"),
     ("years at 1e-9 a second", npz(frame_rate=1e-9), "animation-too-long"),
 ]  # fmt: skip
 
