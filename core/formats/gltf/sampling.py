@@ -92,10 +92,13 @@ def _times(accessors: Accessors, layout: Layout) -> Float[np.ndarray, "keys"]:
 
 def _values(accessors: Accessors, channel: Channel) -> Float[np.ndarray, "numbers"]:
     values = accessors.floats(channel.output)
-    if channel.path == "rotation" and channel.interpolation != "CUBICSPLINE":
-        if not values.any(axis=1).all():
+    if channel.path == "rotation":
+        is_cubic = channel.interpolation == "CUBICSPLINE"
+        rotations = values[1::3] if is_cubic else values  # tangents may be zero
+        if not rotations.any(axis=1).all():
             raise channel.output.entry.refusal("A rotation is zero, which is no rotation.")
-        values = unit_rotations(values, rounded=channel.output.dtype.kind != "f")
+        if not is_cubic:
+            values = unit_rotations(values, rounded=channel.output.dtype.kind != "f")
     return values.reshape(-1)
 
 

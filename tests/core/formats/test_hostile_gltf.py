@@ -252,6 +252,12 @@ ANIMATIONS: list[Row] = [
     ("no such sampler", _set("animations", 0, "channels", 0, "sampler", 5), "invalid-animation", None),
     ("animated node has a matrix", _node(0, matrix=np.eye(4).ravel().tolist()), "invalid-animation", None),
     ("no channels", _set("animations", 0, "channels", []), "no-animation", "/animations/0"),
+    (
+        "a spline of zero rotations",
+        lambda m: m.animate(0, "rotation", [0, 1], np.zeros((6, 4)), "CUBICSPLINE"),
+        "invalid-gltf",
+        "/accessors/5",
+    ),
     ("no keys", lambda m: (_accessor(TIMES, count=0)(m), _accessor(MOVES, count=0)(m)), "invalid-animation", None),
 ]
 
