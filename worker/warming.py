@@ -7,6 +7,9 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from core.animation import Animation, Take
+from core.formats.gltf.writer import Channel, GlbWriter, Primitive
+from core.formats.read import read_animation
+from core.limits import Limits
 from core.methods import METHODS
 from core.parameters import Parameters
 from core.pipeline import analyse, cut
@@ -16,13 +19,29 @@ RATE = 30.0
 
 
 def warm() -> None:
-    """Analyse and cut eight seconds of a bending sheet, by every method that has code of its own."""
+    """Analyse and cut eight seconds of a bending sheet, by every method that has code of its own, and read a glTF."""
+    file = read_animation({"": moving_gltf()}, Parameters(), Limits(), lambda size: memoryview(bytearray(size)))
+    file.vertices(0, file.frames)
     animation = sheet()
     parameters = Parameters(motions=2)
     with threadpool_limits(1):
         analysis = analyse(animation, parameters, threads=1)
         for method in filter("haca".__ne__, METHODS):  # its loops are those of aca, run thousands of times
             cut(analysis, parameters.model_copy(update={"method": method}))
+
+
+def moving_gltf() -> bytes:
+    """A triangle that turns and moves."""
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
+    times = np.array([0, 1], np.float32)
+    turns = np.array([[0, 0, 0, 1], [0, 0, 1, 0]], np.float32)
+    writer = GlbWriter()
+    mesh = writer.mesh("triangle", [Primitive(corners, np.array([[0, 1, 2]], np.uint32))])
+    node = writer.node("triangle", mesh=mesh)
+    writer.animation(
+        "turn", [Channel(node, "rotation", times, turns), Channel(node, "translation", times, corners[:2])]
+    )
+    return writer.to_bytes()
 
 
 def sheet(side: int = 6) -> Animation:

@@ -1,0 +1,15 @@
+"""What is compiled before the workers are forked."""
+
+import subprocess
+import sys
+
+
+def test_a_gltf_is_sampled_before_the_fork():
+    """Numba's loops over keys and poses are compiled: a job on a new machine does not wait for that."""
+    script = (
+        "from worker.warming import warm; warm(); "
+        "from core.formats.gltf import kernels; from core.formats.gltf.posing import kernels as poses; "
+        "print(bool(kernels.sample.signatures), bool(poses.palette.signatures))"
+    )
+    told = subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True, timeout=120)
+    assert told.stdout.split() == ["True", "True"]
