@@ -1,8 +1,7 @@
 """What the page plays of a take, made in one call."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
-from mmap import mmap
 from typing import Any
 
 import numpy as np
@@ -26,7 +25,7 @@ UNSTRAINED = {"no-strain", "no-deformation"}
 class Playback:
     """`document` is what the service answers, without addresses. The streams can be read once, in any order.
 
-    They draw from the animation and from the upload, so both must still be there.
+    They draw from the animation, so what it was read from must still be there.
     """
 
     document: dict[str, Any]
@@ -36,20 +35,18 @@ class Playback:
 
 def playback(
     animation: Animation,
-    parts: Mapping[str, bytes | memoryview | mmap],
     analysis: Analysis,
     *,
     threads: int = 1,
     progress: Progress = ignore,
 ) -> Playback:
     """The model and its strain, to be written as they are read. `progress` hears the stage "figure" while they are."""
-    views = {name: memoryview(part).toreadonly() for name, part in parts.items()}
     surface = _patches(animation, analysis)
     of_vertex = np.zeros(animation.vertex_count, np.int64) if surface is None else surface.of_vertex
     shown = {"vertices": animation.vertex_count, "triangles": len(animation.triangles)}
-    kind = "gltf" if animation.as_gltf else "vertices"
-    if animation.as_gltf:
-        model = plain_copy(views, animation.take.index, of_vertex)
+    kind = "vertices" if animation.gltf is None else "gltf"
+    if animation.gltf is not None:
+        model = plain_copy(animation.gltf, animation.take.index, of_vertex)
     else:
         mesh = shown_mesh(animation)
         model = vertex_blocks(animation, mesh, of_vertex, threads=threads, progress=progress)
