@@ -15,6 +15,9 @@ ROUNDED = 1e-3
 LONGEST = 4 * 2**20
 """Bytes of a head: fifty thousand joints have fewer."""
 
+LONGEST_NAME = 200
+"""Letters of a joint's name: an end takes its parent's, so that a long one would be kept as often as there are ends."""
+
 CHANNELS = {f"{axis}{kind}" for axis in "XYZ" for kind in ("position", "rotation")}
 
 
@@ -87,8 +90,10 @@ def _joints(words: Iterator[str], limits: Limits) -> list[Joint]:
             limits.check("max_nodes", len(joints) + 1)
             name = _until_brace(words)
             parent = above[-1] if above else -1
+            if word == "End":  # which has no name of its own
+                name = _end_of(joints[parent].name if above else "")
             above.append(len(joints))
-            joints.append(Joint(f"{joints[parent].name} end" if word == "End" else name, parent))
+            joints.append(Joint(name, parent))
         elif word == "OFFSET" and above:
             joints[above[-1]].offset = (_number(next(words, "")), _number(next(words, "")), _number(next(words, "")))
         elif word == "CHANNELS" and above:
@@ -102,12 +107,22 @@ def _joints(words: Iterator[str], limits: Limits) -> list[Joint]:
     return joints
 
 
+def _end_of(parent: str) -> str:
+    """The name of an end, which has none of its own; an end below an end is called the same."""
+    return parent if parent.endswith(" end") else f"{parent} end"
+
+
 def _until_brace(words: Iterator[str]) -> str:
+    """The name before a brace, which in some files has spaces."""
     name: list[str] = []
+    letters = 0
     for word in words:
         if word == "{":
             return " ".join(name)
         name.append(word)
+        letters += len(word)
+        if letters > LONGEST_NAME:
+            raise malformed(f"has a joint whose name goes on beyond {LONGEST_NAME} letters: {name[0][:40]!r} …")
     raise malformed("breaks off in its hierarchy")
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from core.errors import BrokenContainer, CaesuraError, InvalidModel, LimitExceeded
+from core.formats.bvh.hierarchy import read_head
 from core.formats.header import HeaderTake, read_header
 from core.limits import Limits
 from tests.core.formats.opening import codes, opened
@@ -127,3 +128,32 @@ def test_a_long_take_keeps_its_clock() -> None:
     arm = opened(text.encode())
     assert arm.frames == 5_000
     np.testing.assert_allclose(arm.vertices(0, 5_000)[:, 0, 0], np.arange(5_000), atol=1e-2)
+
+
+def test_a_long_name_is_refused_and_never_copied() -> None:
+    """A million letters, and ends that would each take them: refused before any joint is kept."""
+    bomb = (
+        "HIERARCHY ROOT "
+        + "x" * 1_000_000
+        + " {"
+        + " End Site { OFFSET 0 0 0 }" * 400
+        + " }\n"
+        + ARM[ARM.index("MOTION") :]
+    )
+    with pytest.raises(BrokenContainer, match="letters") as refused:
+        opened(bomb.encode())
+    assert refused.value.code == "malformed-bvh"
+    assert len(str(refused.value)) < 300
+
+
+def test_ends_below_ends_do_not_grow_their_names() -> None:
+    """A hierarchy that begins with an end, or nests a thousand of them, has names as short as any."""
+    depth = 1000
+    nested = "HIERARCHY ROOT Hips { OFFSET 0 0 0 CHANNELS 1 Zrotation"
+    nested += " End Site { OFFSET 0 1 0" * depth + " }" * (depth + 1) + "\nMOTION\nFrames: 2\nFrame Time: 0.04\n0\n9\n"
+    head = read_head(nested.encode(), Limits())
+    assert max(len(joint.name) for joint in head.joints) == len("Hips end")
+    first = nested.replace("ROOT Hips { OFFSET 0 0 0 CHANNELS 1 Zrotation", "").replace(
+        " }" * (depth + 1), " }" * depth
+    )
+    assert read_head(first.encode(), Limits()).joints[0].name == " end"
