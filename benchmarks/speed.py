@@ -4,7 +4,7 @@
     python -m benchmarks.speed --quick    # under 40 s; prints alone
 
 Every figure is a ratio of things measured in the same run, on two threads, best of several alternating turns, in
-processor time per thread: other programs disturb it less than the clock, and an idle machine shows the same by both.
+processor time per thread: other programs disturb it less than the clock.
 Ends with status 1 where a ratio misses its bound.
 """
 
@@ -20,6 +20,7 @@ import numpy as np
 from benchmarks.curve import Curve
 from benchmarks.growth import Series, drawn
 from benchmarks.numpy_twin import twin
+from benchmarks.report import write_section
 from benchmarks.stopwatch import AnonymousPeak, least
 from benchmarks.tube import Tube
 from core.blocks import blocks_of
@@ -157,28 +158,6 @@ def table(rows: list[Row]) -> str:
     return "\n".join(lines)
 
 
-def page(rows: list[Row]) -> str:
-    """docs/performance.md."""
-    return "\n".join(
-        [
-            "# How fast it is",
-            "",
-            "Written by `python -m benchmarks.speed`. " + " ".join((__doc__ or "").split("\n\n")[2].split("\n")),
-            "A bound that is missed stays in the table. The take is a bending tube in memory (`benchmarks/tube.py`);",
-            "a triangle-frame is one triangle in one frame.",
-            "",
-            "What misses is bound by instructions, not by memory: strain alone is some ninety vector instructions for",
-            "eight triangle-frames, and counting pairs of bins is one store each. Meshes of more than 80,000 vertices",
-            "are read in blocks of fewer than 64 frames, so that a block stays small; short rows cost more each.",
-            "",
-            table(rows),
-            "",
-            "![Time against triangle-frames, on logarithmic scales](performance.svg)",
-            "",
-        ]
-    )
-
-
 def main() -> None:
     """Measures, prints the table, writes the page unless quick, and says by the status whether every bound holds."""
     options = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
@@ -191,7 +170,7 @@ def main() -> None:
     rows += grown
     if not quick:
         (DOCS / "performance.svg").write_text(drawn(series), encoding="utf-8")
-        (DOCS / "performance.md").write_text(page(rows), encoding="utf-8")
+        write_section(DOCS / "performance.md", "speed", table(rows))
     print(table(rows))
     sys.exit(0 if all(row.holds for row in rows) else 1)
 
