@@ -1,11 +1,15 @@
 """What a person does with the page, done in a browser."""
 
+import io
 import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
+
+from core.formats.header import read_header
+from core.limits import Limits
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -176,3 +180,16 @@ def test_the_page_fits_a_phone(result: Page) -> None:
     result.set_viewport_size({"width": 360, "height": 740})
     result.wait_for_timeout(200)
     assert result.evaluate("document.documentElement.scrollWidth") <= 360
+
+
+def test_the_file_comes_back_in_clips(page: Page, smooth: Path, tmp_path: Path) -> None:
+    """One click waits until the clips are written and saves a GLB with one named animation for each segment."""
+    opened(page, smooth)
+    segments = page.locator("#segments li").count()
+    with page.expect_download(timeout=60_000) as saving:
+        page.locator("#clips").click()
+    file = tmp_path / "clips.glb"
+    saving.value.save_as(file)
+    names = [take.name for take in read_header(io.BytesIO(file.read_bytes()), file.name, Limits()).takes]
+    assert len(names) == len(set(names)) == segments
+    assert "A_01" in names
