@@ -30,17 +30,26 @@ def settle(values: Float[np.ndarray, "steps D"], means: Float[np.ndarray, "K D"]
     A motion that no step wants is dropped, so that fewer than K may come back.
     """
     squares = np.einsum("sd,sd->s", values, values)
-    settled: Settled | None = None
-    for _ in range(PASSES):
-        labels = np.empty(len(values), np.int64)
-        cost = kernels.viterbi(distances(values, squares, means), penalty, labels)
-        used, labels = np.unique(labels, return_inverse=True)
-        means = means_of(values, labels, len(used))
-        if settled is not None and cost >= settled.cost * (1 - 1e-9):
-            return settled
-        settled = Settled(labels, means, cost)
-    assert settled is not None  # noqa: S101 -- PASSES is positive
+    settled = _once(values, squares, means, penalty)
+    for _ in range(PASSES - 1):
+        again = _once(values, squares, settled.means, penalty)
+        if again.cost >= settled.cost * (1 - 1e-9):
+            break
+        settled = again
     return settled
+
+
+def _once(
+    values: Float[np.ndarray, "steps D"],
+    squares: Float[np.ndarray, "steps"],
+    means: Float[np.ndarray, "K D"],
+    penalty: float,
+) -> Settled:
+    """The cheapest labels for these means, and the means of those labels."""
+    labels = np.empty(len(values), np.int64)
+    cost = kernels.viterbi(distances(values, squares, means), penalty, labels)
+    used, labels = np.unique(labels, return_inverse=True)
+    return Settled(labels, means_of(values, labels, len(used)), cost)
 
 
 def distances(

@@ -101,30 +101,30 @@ def _until_ready(web, http):
     raise TimeoutError("the web process did not answer")
 
 
-@pytest.fixture(scope="session")
-def service(checkout, tmp_path_factory):
-    """The whole service, shared by all tests: each sends a take of its own."""
-    folder = tmp_path_factory.mktemp("service")
+@contextmanager
+def with_its_own_redis(checkout, folder, workers):
+    """A service and its queue, in a folder of their own."""
     redis = EmbeddedRedis(folder / "redis")
     redis.start()
     try:
-        with serve(checkout, folder, redis.url, workers=True) as running:
+        with serve(checkout, folder, redis.url, workers=workers) as running:
             yield running
     finally:
         redis.stop()
+
+
+@pytest.fixture(scope="session")
+def service(checkout, tmp_path_factory):
+    """The whole service, shared by all tests: each sends a take of its own."""
+    with with_its_own_redis(checkout, tmp_path_factory.mktemp("service"), workers=True) as running:
+        yield running
 
 
 @pytest.fixture(scope="session")
 def idle(checkout, tmp_path_factory):
     """A service without workers: whatever it is asked stays queued."""
-    folder = tmp_path_factory.mktemp("idle")
-    redis = EmbeddedRedis(folder / "redis")
-    redis.start()
-    try:
-        with serve(checkout, folder, redis.url, workers=False) as running:
-            yield running
-    finally:
-        redis.stop()
+    with with_its_own_redis(checkout, tmp_path_factory.mktemp("idle"), workers=False) as running:
+        yield running
 
 
 def npz(**arrays):
