@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -107,11 +108,12 @@ class Pool:
 
 
 def descendants(pid):
-    """Every process below, with its depth, as the system tells."""
+    """Every process below, with its depth, as the system tells; threads and processes may end while we look."""
     below = []
     for task in Path(f"/proc/{pid}/task").glob("*/children"):
-        for child in map(int, task.read_text().split()):
-            below += [(1, child), *((depth + 1, far) for depth, far in descendants(child))]
+        with suppress(FileNotFoundError, ProcessLookupError):
+            for child in map(int, task.read_text().split()):
+                below += [(1, child), *((depth + 1, far) for depth, far in descendants(child))]
     return below
 
 
