@@ -1,69 +1,77 @@
 """`caesura segment`: find the motions of files on this machine, without a server."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import click
 
 from core.document import SegmentationDocument
-from core.errors import CaesuraError
-from core.formats.clips.options import ClipOptions
 from core.limits import Limits
 from core.parameters import Parameters
 from service.commands import options
+from service.commands.batch import Batch
 from service.commands.buffers import mapped, scratch
+from service.commands.files import Files, targets
+from service.commands.outputs import Outputs, outputs
 from service.commands.problems import Command, show
 from service.commands.progress_bar import ProgressBar
 from service.commands.table import table
 
-OUT = click.Path(dir_okay=False, writable=True, path_type=Path)
+FOLDER = click.Path(file_okay=False, path_type=Path)
 
 
 @click.command(cls=Command)
-@click.argument(
-    "files", metavar="FILE...", nargs=-1, required=True, type=click.Path(exists=True, dir_okay=False, path_type=Path)
-)
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=Files())
+@click.option("--out", metavar="DIR", type=FOLDER, help="Write NAME.json for every FILE, and print a table at the end.")
+@outputs
 @options.parameters
 @click.option("--json", "as_json", is_flag=True, help="Print the segmentation document, one line for each file.")
-@click.option("--clips", type=OUT, help="Write the file again with its motions as clips: a GLB, or a zip.")
-@click.option("--keyframes", type=OUT, help="Write the file again with its key poses alone, as a GLB.")
 @options.clips
 @click.option("--threads", type=click.IntRange(1), help="Threads to compute with.  [default: what this machine gives]")
 @click.pass_context
 def segment(
     context: click.Context,
     /,
-    files: tuple[Path, ...],
+    files: tuple[tuple[Path, ...], ...],
+    out: Path | None,
     as_json: bool,
     threads: int | None,
-    clips: Path | None,
-    keyframes: Path | None,
     **given: Any,
 ) -> None:
-    """Find the motions in each FILE: a GLB, a glTF or an NPZ.
+    """Find the motions in each FILE: a GLB, a glTF, a BVH, an NPZ, or a zip; patterns such as "*.glb" are fine.
 
     A .bin among the files is no animation of its own: it is offered to every glTF that names it. With several
-    files a bad one does not stop the others; with --json its line is null.
+    files a bad one does not stop the others; with --json its line is null. The exit code is that of the first
+    that was bad: 0 where none was.
+
+    With --out, --clips, --csv and the like need no name: each file's results are named after it.
     """
     parameters, chosen = Parameters.parse(options.given(given)), options.clip_options(given)
-    companions = [path for path in files if path.suffix.lower() == ".bin"]
-    animations = [path for path in files if path not in companions] or companions
-    if len(animations) > 1 and (clips or keyframes):
-        raise click.UsageError("--clips and --keyframes name one file: give one animation at a time.")
-    failed = 0
-    for path in animations:
-        try:
+    paths = list(dict.fromkeys(path for found in files for path in found))
+    companions = [path for path in paths if path.suffix.lower() == ".bin"]
+    animations = [path for path in paths if path not in companions] or companions
+    written = Outputs.of(given, chosen, len(animations), out)
+    batch = Batch()
+    for path, target in zip(animations, _targets(animations, out), strict=True):
+        with batch.file(path) as outcome:
             parts = {p.name: mapped(p) for p in [path, *(c for c in companions if c != path)]}
             found = _found(parts, parameters, threads)
-            _write(parts, found, chosen, clips, keyframes)
-        except CaesuraError as refused:
-            failed = failed or show(refused.problem(), as_json=as_json, file=str(path))
+            written.write(parts, found, target)
+            outcome.found = found
+            if as_json or out is None:
+                click.echo(found.model_dump_json() if as_json else table(path.name, found))
+        if outcome.problem:
+            show(outcome.problem, as_json=as_json, file=str(path))
             if as_json and len(animations) > 1:
                 click.echo("null")
-            continue
-        click.echo(found.model_dump_json() if as_json else table(path.name, found))
-    context.exit(failed)
+    if out is not None and not as_json:
+        click.echo(batch.table())
+    context.exit(batch.exit_code())
+
+
+def _targets(animations: list[Path], out: Path | None) -> list[Path] | list[None]:
+    return [None] * len(animations) if out is None else targets(animations, out)
 
 
 def _found(parts: Mapping[str, memoryview], parameters: Parameters, threads: int | None) -> SegmentationDocument:
@@ -78,32 +86,3 @@ def _found(parts: Mapping[str, memoryview], parameters: Parameters, threads: int
         from worker.cpu import available_threads
 
         return motions_of(animation, parameters, threads=threads or available_threads(), progress=progress).document()
-
-
-def _write(
-    parts: Mapping[str, memoryview],
-    found: SegmentationDocument,
-    chosen: ClipOptions,
-    clips: Path | None,
-    keyframes: Path | None,
-) -> None:
-    """The files that were asked for, made of the one that was read."""
-    if not clips and not keyframes:
-        return
-    from core.formats.clips.write import write_clips, write_key_poses
-
-    if clips:
-        _save(clips, write_clips(parts, found, chosen, scratch).pieces)
-    if keyframes:
-        _save(keyframes, write_key_poses(parts, found, scratch).pieces)
-
-
-def _save(path: Path, pieces: Iterator[bytes]) -> None:
-    """Write it aside, then to its name: it is whole or not there, and may replace the file that it is made of."""
-    aside = path.with_name(f".{path.name}.part")
-    try:
-        with aside.open("wb") as file:
-            file.writelines(pieces)
-        aside.replace(path)
-    finally:
-        aside.unlink(missing_ok=True)

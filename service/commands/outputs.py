@@ -1,0 +1,115 @@
+"""What `caesura segment` writes beside what it prints: one file of a form, or all forms of every file in a folder."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import click
+
+from core.document import SegmentationDocument
+from core.formats.clips.options import ClipOptions
+from service.commands.buffers import scratch
+from service.exports import frames_csv, segments_csv, segments_vtt
+
+Parts = Mapping[str, memoryview]
+Write = Callable[[Parts, SegmentationDocument, ClipOptions], tuple[str, Iterator[bytes]]]
+"""Gives the suffix of the file and its bytes, piece by piece."""
+
+UNNAMED = "\0"
+"""What an option without a name has for a value; no file can be called so."""
+
+
+def _text(suffix: str, written: Callable[[SegmentationDocument], str]) -> Write:
+    return lambda _parts, found, _options: (suffix, iter([written(found).encode()]))
+
+
+def _clips(parts: Parts, found: SegmentationDocument, options: ClipOptions) -> tuple[str, Iterator[bytes]]:
+    from core.formats.clips.write import GLB, write_clips
+
+    written = write_clips(parts, found, options, scratch)
+    return ".clips.glb" if written.media_type == GLB else ".clips.zip", written.pieces
+
+
+def _key_poses(parts: Parts, found: SegmentationDocument, _: ClipOptions) -> tuple[str, Iterator[bytes]]:
+    from core.formats.clips.write import write_key_poses
+
+    return ".keyframes.glb", write_key_poses(parts, found, scratch).pieces
+
+
+FORMS: dict[str, tuple[Write, str]] = {
+    "clips": (_clips, "Write the file again with its motions as clips: a GLB, or a zip."),
+    "keyframes": (_key_poses, "Write the file again with its key poses alone, as a GLB."),
+    "csv": (_text(".csv", segments_csv), "Write the segments as CSV."),
+    "frames_csv": (_text(".frames.csv", frames_csv), "Write motion and energy of every frame as CSV."),
+    "vtt": (_text(".vtt", segments_vtt), "Write the segments as WebVTT, for video players."),
+}
+DOCUMENT = _text(".json", lambda found: found.model_dump_json())
+
+
+def outputs(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add an option for each form; the command receives it as `write_NAME`. With `--out` it needs no name."""
+    for name, (_, text) in reversed(FORMS.items()):
+        option = click.option(
+            f"--{name.replace('_', '-')}",
+            f"write_{name}",
+            metavar="[FILE]",
+            is_flag=False,
+            flag_value=UNNAMED,
+            help=text,
+        )
+        function = option(function)
+    return function
+
+
+@dataclass(frozen=True)
+class Outputs:
+    """The forms that were asked for, by name, with the file each goes to; with `--out`, their names alone."""
+
+    forms: Mapping[str, Path | None]
+    options: ClipOptions
+
+    @classmethod
+    def of(cls, arguments: Mapping[str, Any], options: ClipOptions, animations: int, folder: Path | None) -> "Outputs":
+        """Out of a command's keyword arguments; raises `UsageError` where files would be lost or are not named."""
+        forms: dict[str, Path | None] = {}
+        for form in FORMS:
+            given = arguments[f"write_{form}"]
+            if given is None:
+                continue
+            flag = f"--{form.replace('_', '-')}"
+            if folder is None and given == UNNAMED:
+                raise click.UsageError(f"{flag} needs the name of a file; with --out DIR it needs none.")
+            if folder is None and animations > 1:
+                raise click.UsageError(f"{flag} names one file: give one animation at a time, or a folder with --out.")
+            if folder is not None and given != UNNAMED:
+                raise click.UsageError(
+                    f"With --out, {flag} takes no name. Put it after the files, or before an option."
+                )
+            forms[form] = None if given == UNNAMED else Path(given)
+        return cls(forms, options)
+
+    def write(self, parts: Parts, found: SegmentationDocument, target: Path | None) -> None:
+        """Every form that was asked for; into a folder also the document, first."""
+        if target is not None:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            self._one(DOCUMENT, parts, found, target, None)
+        for form, path in self.forms.items():
+            self._one(FORMS[form][0], parts, found, target, path)
+
+    def _one(
+        self, write: Write, parts: Parts, found: SegmentationDocument, target: Path | None, path: Path | None
+    ) -> None:
+        suffix, pieces = write(parts, found, self.options)
+        _save(path or (target or Path()).with_name(f"{(target or Path()).name}{suffix}"), pieces)
+
+
+def _save(path: Path, pieces: Iterable[bytes]) -> None:
+    """Write it aside, then to its name: it is whole or not there, and may replace the file that it is made of."""
+    aside = path.with_name(f".{path.name}.part")
+    try:
+        with aside.open("wb") as file:
+            file.writelines(pieces)
+        aside.replace(path)
+    finally:
+        aside.unlink(missing_ok=True)

@@ -1,0 +1,98 @@
+"""`caesura segment *.glb --out DIR`: a night's batch, of which one bad file must not cost the rest."""
+
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from service.cli import main
+from service.commands.files import targets
+from tests.installation import take_npz
+
+
+def caesura(folder, *arguments):
+    """Run the installed command in a folder; the pattern reaches it as it is, no shell has a look at it."""
+    program = Path(sys.executable).parent / "caesura"
+    return subprocess.run(
+        [program, *map(str, arguments)], cwd=folder, check=False, capture_output=True, text=True, timeout=240
+    )
+
+
+@pytest.fixture(scope="module")
+def takes(tmp_path_factory):
+    """Two good takes in two folders, and a file that is none between them."""
+    folder = tmp_path_factory.mktemp("batch")
+    for name, order in (("monday/walk.npz", (0, 1, 0)), ("tuesday/walk.npz", (1, 0, 1))):
+        (folder / name).parent.mkdir()
+        (folder / name).write_bytes(take_npz(order))
+    (folder / "monday" / "zz.npz").write_text("<html>404</html>")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def run(takes):
+    """All of them by one pattern, with documents, CSV and clips."""
+    return caesura(takes, "segment", "**/*.npz", "--motions", "2", "--out", "out", "--csv", "--clips", "--vtt")
+
+
+def test_every_good_file_has_its_results(takes, run):
+    """Named after the file, in folders as the files lie; the bad one has none, and nothing half-written is left."""
+    written = sorted(str(path.relative_to(takes / "out")) for path in (takes / "out").rglob("*") if path.is_file())
+    suffixes = (".clips.zip", ".csv", ".json", ".vtt")
+    assert written == [f"{day}/walk{suffix}" for day in ("monday", "tuesday") for suffix in suffixes]
+    document = json.loads((takes / "out/monday/walk.json").read_text())
+    rows = list(csv.DictReader((takes / "out/monday/walk.csv").read_text().splitlines()))
+    assert [int(row["end"]) for row in rows] == [segment["end"] for segment in document["segments"]]
+    assert document["parameters"]["motions"] == 2
+
+
+def test_the_table_at_the_end_says_how_each_went(run):
+    """A line for each file and how many are done; the sentence about the bad one is on stderr; the status is 3."""
+    lines = run.stdout.splitlines()
+    assert [line.split()[0] for line in lines[1:4]] == [
+        str(Path("monday/walk.npz")), str(Path("monday/zz.npz")), str(Path("tuesday/walk.npz")),
+    ]  # fmt: skip
+    assert "failed: unsupported-media-type" in lines[2]
+    assert lines[-1] == "2 of 3 done"
+    assert run.stderr.startswith("caesura: ")
+    assert run.stderr.count("\n") == 1
+    assert run.returncode == 3
+
+
+def test_a_folder_that_cannot_be_written_is_said(takes):
+    """Where the results cannot go, the file failed, by a sentence and without a traceback."""
+    (takes / "taken").write_text("a file")
+    run = caesura(takes, "segment", "monday/walk.npz", "--out", "taken/below")
+    assert run.returncode == 3
+    assert "[file-system]" in run.stderr
+    assert "Traceback" not in run.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["*.glb"], "There is no file '*.glb'"),
+        (["."], "is a folder"),
+        (["monday/walk.npz", "--csv"], "--csv needs the name of a file"),
+        (["monday/*.npz", "--csv", "one.csv"], "--csv names one file"),
+        (["monday/walk.npz", "--out", "out", "--clips", "c.zip"], "With --out, --clips takes no name"),
+        (["--out", "out", "--clips", "monday/walk.npz", "monday/zz.npz"], "With --out, --clips takes no name"),
+    ],
+)
+def test_wrong_usage_is_said_before_anything_is_computed(takes, monkeypatch, arguments, said):
+    """Exit code 2 and what to do; an input that an option swallowed is noticed."""
+    monkeypatch.chdir(takes)
+    run = CliRunner().invoke(main, ["segment", *arguments])
+    assert run.exit_code == 2
+    assert said in run.output
+
+
+def test_results_of_two_files_never_share_a_name(tmp_path):
+    """Files of one name but for the suffix, even in another case, keep their suffixes."""
+    files = [Path("/t/a.glb"), Path("/t/A.npz"), Path("/t/b.glb"), Path("/t/below/b.glb")]
+    out = tmp_path / "out"
+    assert targets(files, out) == [out / "a.glb", out / "A.npz", out / "b", out / "below" / "b"]
