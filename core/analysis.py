@@ -2,13 +2,16 @@
 
 import io
 import json
-from dataclasses import dataclass, replace
-from typing import Any
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Any, TypeVar
 
 import numpy as np
 from jaxtyping import Float, Int
 
 from core.document import Notice, Source
+
+Made = TypeVar("Made")
 
 
 @dataclass(frozen=True)
@@ -44,6 +47,7 @@ class Analysis:
     features: tuple[Features, ...]
     strain_scale: float
     notices: tuple[Notice, ...] = ()
+    _made: dict[Any, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def to_bytes(self) -> bytes:
         """As an NPZ: plain arrays and one JSON member, nothing pickled."""
@@ -83,6 +87,13 @@ class Analysis:
                 strain_scale=meta["strain_scale"],
                 notices=tuple(Notice(**n) for n in meta["notices"]),
             )
+
+    def once(self, make: "Callable[[Analysis], Made]") -> Made:
+        """`make(self)`, made at the first call and kept: what cuts of one analysis have in common."""
+        if make not in self._made:
+            self._made[make] = make(self)
+        made: Made = self._made[make]
+        return made
 
     def with_notices(self, *notices: Notice) -> "Analysis":
         """The same analysis, saying more."""

@@ -6,9 +6,9 @@ import numpy as np
 from jaxtyping import Float, Int
 from sklearn.cluster import KMeans
 from sklearn.metrics import silhouette_score
-from threadpoolctl import threadpool_limits
 
 from core.document import Score
+from core.one_thread import one_thread
 
 STARTS = 20
 MOST_MOTIONS = 20
@@ -34,7 +34,7 @@ def cluster(points: Float[np.ndarray, "keys D"], motions: int, seed: int) -> Clu
 
     Above `SAMPLE` points the starts are tried on a sample, and all points go on from the best of them.
     """
-    with threadpool_limits(1):
+    with one_thread():
         few = sample(points)
         seen = compact(few)
         fit = KMeans(min(motions, distinct(few)), n_init=STARTS, random_state=seed).fit(seen)
@@ -63,7 +63,7 @@ def compact(points: Float[np.ndarray, "keys D"]) -> Float[np.ndarray, "keys d"]:
     if not 1 < len(points) < points.shape[1]:
         return points
     centred = points - points.mean(axis=0, dtype=np.float64)
-    with threadpool_limits(1):
+    with one_thread():
         squared, directions = np.linalg.eigh(centred @ centred.T)
     spanned = squared > squared[-1] * np.finfo(np.float64).eps
     return np.asarray(directions[:, spanned] * np.sqrt(squared[spanned]))
@@ -99,5 +99,5 @@ def _chosen(points: Float[np.ndarray, "keys D"], found: list[Clusters]) -> int:
 
 
 def _silhouette(points: Float[np.ndarray, "keys D"], labels: Int[np.ndarray, "keys"]) -> float:
-    with threadpool_limits(1):
+    with one_thread():
         return float(silhouette_score(points, labels))

@@ -16,7 +16,7 @@ from core.methods import METHODS
 from core.parameters import ALGORITHM, Parameters
 from core.peak_strain import peak_strain
 from core.progress import Progress, ignore
-from core.repetition.repeats import repeats
+from core.repetition.repeats import Repetitions, repeats
 from core.rest import rest_shape
 from core.segmentation import Segmentation, in_order_of_appearance
 from core.survey import Survey, survey
@@ -107,7 +107,7 @@ def cut(analysis: Analysis, parameters: Parameters) -> Segmentation:
         confidence=np.ones(changes) if found.confidence is None else found.confidence,
         scores=found.scores,
         notices=analysis.notices + found.notices,
-        repeats=repeats(analysis.features, labels, analysis.frame_rate),
+        repeats=repeats(analysis.once(Repetitions.of), labels),
     )
 
 

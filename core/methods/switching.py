@@ -1,11 +1,11 @@
 """Our default method: windowed strain and pair distances, switching k-means, refined cuts."""
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
-from core.analysis import Analysis, Features
+from core.analysis import Analysis
 from core.document import Notice, Score
 from core.keyframes import key_frames
+from core.one_thread import one_thread
 from core.parameters import Auto, Parameters
 from core.refinement import refined
 from core.segmentation import Cut
@@ -14,11 +14,7 @@ from core.switching.certainty import certainty
 from core.switching.choice import choose
 from core.switching.consensus import WEIGHTINGS, most_agreed
 from core.switching.settling import Settled, settle
-from core.switching.signal import Signal, windowed_signal
-from core.switching.stretches import Stretches
-
-CHANGE_SECONDS = 1 / 3
-"""What a change of motion costs: as much as a third of a second at the mean distance from the mean of all."""
+from core.switching.weighed import Weighed, Weighings
 
 
 def switching(analysis: Analysis, parameters: Parameters) -> Cut:
@@ -26,48 +22,42 @@ def switching(analysis: Analysis, parameters: Parameters) -> Cut:
     window = round(parameters.keyframe_window_seconds * analysis.frame_rate)
     keys = key_frames(analysis.energy, analysis.peaks, window, parameters.threshold)
     features = tuple(feature for feature in analysis.features if feature.values.shape[1])
-    with threadpool_limits(1):
-        signal = windowed_signal(features, analysis.frames, analysis.frame_rate)
-        if signal is None:
+    with one_thread():
+        weighings = analysis.once(Weighings.of)
+        alike = weighings.by()
+        if alike is None:
             notices = _fewer(parameters.motions, 1)
             return Cut(np.zeros(analysis.frames, np.int64), keys, np.zeros(0), notices=notices)
-        settled, scores = _motions(signal, parameters)
+        settled, scores = _motions(alike, parameters)
         motions = settled.motions if parameters.motions == "auto" else parameters.motions
-        signal, settled = _agreed(features, signal, settled, motions, analysis.frame_rate)
-        labels = refined(signal.per_frame(settled.labels), features, analysis.frame_rate)
-        sure = certainty(signal, settled, _penalty(signal))
+        weighed, settled = _agreed(weighings, alike, settled, motions)
+        labels = refined(weighed.signal.per_frame(settled.labels), features, analysis.frame_rate)
+        sure = certainty(weighed.signal, settled, weighed.penalty)
     return Cut(labels, keys, sure, scores, _fewer(parameters.motions, settled.motions))
 
 
-def _motions(signal: Signal, parameters: Parameters) -> tuple[Settled, tuple[Score, ...]]:
+def _motions(alike: Weighed, parameters: Parameters) -> tuple[Settled, tuple[Score, ...]]:
     """The motions by all descriptors alike, and what is left unexplained by each number of them."""
     if parameters.motions != "auto":
-        return _told(signal, parameters.motions), ()
-    choice = choose(signal, Stretches.of(signal, _penalty(signal)), _penalty(signal))
+        return _told(alike, parameters.motions), ()
+    choice = choose(alike.signal, alike.stretches, alike.penalty)
     scores = tuple(Score(motions=k, score=round(s, 6)) for k, s in choice.scores)
-    return without_blur(signal, choice.settled), scores
+    return without_blur(alike.signal, choice.settled), scores
 
 
-def _agreed(
-    features: tuple[Features, ...], signal: Signal, settled: Settled, motions: int, frame_rate: float
-) -> tuple[Signal, Settled]:
+def _agreed(weighings: Weighings, alike: Weighed, settled: Settled, motions: int) -> tuple[Weighed, Settled]:
     """The same number of motions by that weighting of the descriptors with which the others agree most."""
-    found = [(signal, settled)]
-    for weights in WEIGHTINGS[1:] if len(features) == len(WEIGHTINGS[0]) and motions > 1 else ():
-        other = windowed_signal(features, signal.frames, frame_rate, weights)
+    found = [(alike, settled)]
+    for weights in WEIGHTINGS[1:] if weighings.descriptors == len(WEIGHTINGS[0]) and motions > 1 else ():
+        other = weighings.by(weights)
         if other is not None:
             found.append((other, _told(other, motions)))
     return found[most_agreed([solution.labels for _, solution in found])]
 
 
-def _told(signal: Signal, motions: int) -> Settled:
-    penalty = _penalty(signal)
-    stretches = Stretches.of(signal, penalty, at_least=motions)
-    return without_blur(signal, settle(signal.values, stretches.grouped(motions), penalty))
-
-
-def _penalty(signal: Signal) -> float:
-    return CHANGE_SECONDS / signal.seconds_per_step
+def _told(weighed: Weighed, motions: int) -> Settled:
+    means = weighed.at_least(motions).grouped(motions)
+    return without_blur(weighed.signal, settle(weighed.signal.values, means, weighed.penalty))
 
 
 def _fewer(asked: Auto | int, found: int) -> tuple[Notice, ...]:

@@ -38,39 +38,55 @@ class Signal:
         return np.asarray(np.repeat(labels, self.stride)[: self.frames])
 
 
-def windowed_signal(
-    features: tuple[Features, ...], frames: int, frame_rate: float, weights: tuple[float, ...] = ()
-) -> Signal | None:
-    """Mean, deviation and RMS speed of every descriptor over a second and a half; None where nothing changes.
+@dataclass(frozen=True)
+class Windows:
+    """Mean, deviation and RMS speed of every descriptor over a second and a half, at every step.
 
-    The three statistics of a descriptor count alike, whatever their units, and so do the descriptors but for their
-    `weights`.
+    `statistics[descriptor][statistic]` (steps, components): computed once, however the descriptors are weighed.
     """
-    stride = max(round(frame_rate / STEPS_PER_SECOND), 1)
-    at = np.minimum(np.arange(0, frames, stride) + stride // 2, frames - 1)
-    half = max(round(WINDOW_SECONDS * frame_rate / 2), 1)
-    values, size, tempo = [], [], []
-    for feature, weight in zip(features, weights or (1.0,) * len(features), strict=True):
-        for number, statistic in enumerate(window_statistics(feature.values, half, frame_rate, at)):
-            spread = _root_mean_square(statistic - statistic.mean(axis=0))
-            if spread * weight > 0:
-                unit = weight / spread
-                values.append((statistic - statistic.mean(axis=0)) * unit)
-                size.append(statistic * (unit * (number > 0)))  # deviation and speed grow with the motion, …
-                tempo.append(statistic * (unit * (number > 1)))  # … and speed with its speed
-    if not values:
-        return None
-    together = np.concatenate(values, axis=1)
-    scale = _root_mean_square(together)
-    directions = _leading(together) / scale
-    return Signal(
-        together @ directions,
-        np.concatenate(size, axis=1) @ directions,
-        np.concatenate(tempo, axis=1) @ directions,
-        stride,
-        frames,
-        stride / frame_rate,
-    )
+
+    statistics: tuple[tuple[Float[np.ndarray, "steps _"], ...], ...]
+    frames: int
+    frame_rate: float
+    stride: int
+
+    @classmethod
+    def of(cls, features: tuple[Features, ...], frames: int, frame_rate: float) -> "Windows":
+        """The windows of a take, O(frames)."""
+        stride = max(round(frame_rate / STEPS_PER_SECOND), 1)
+        at = np.minimum(np.arange(0, frames, stride) + stride // 2, frames - 1)
+        half = max(round(WINDOW_SECONDS * frame_rate / 2), 1)
+        statistics = tuple(window_statistics(feature.values, half, frame_rate, at) for feature in features)
+        return cls(statistics, frames, frame_rate, stride)
+
+    def signal(self, weights: tuple[float, ...] = ()) -> Signal | None:
+        """The signal to cut; None where nothing changes.
+
+        The three statistics of a descriptor count alike, whatever their units, and so do the descriptors but for
+        their `weights`.
+        """
+        values, size, tempo = [], [], []
+        for statistics, weight in zip(self.statistics, weights or (1.0,) * len(self.statistics), strict=True):
+            for number, statistic in enumerate(statistics):
+                centred = statistic - statistic.mean(axis=0)
+                spread = _root_mean_square(centred)
+                if spread * weight > 0:
+                    unit = weight / spread
+                    values.append(centred * unit)
+                    size.append(statistic * (unit * (number > 0)))  # deviation and speed grow with the motion, …
+                    tempo.append(statistic * (unit * (number > 1)))  # … and speed with its speed
+        if not values:
+            return None
+        together = np.concatenate(values, axis=1)
+        directions = _leading(together) / _root_mean_square(together)
+        return Signal(
+            together @ directions,
+            np.concatenate(size, axis=1) @ directions,
+            np.concatenate(tempo, axis=1) @ directions,
+            self.stride,
+            self.frames,
+            self.stride / self.frame_rate,
+        )
 
 
 def _root_mean_square(values: Float[np.ndarray, "rows D"]) -> float:

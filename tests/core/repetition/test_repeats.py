@@ -13,7 +13,7 @@ from core.pipeline import analyse, segment
 from core.repetition.beats import beats
 from core.repetition.passage import passage
 from core.repetition.period import period, unlikeness
-from core.repetition.repeats import repeats
+from core.repetition.repeats import Repetitions, repeats
 from samples.figures import FIGURES, figure
 
 RATE = 30.0
@@ -31,7 +31,7 @@ def swings(lengths, columns=6, noise=0.01):
 def found(feature):
     """Where the repetitions of a take of one motion end."""
     labels = np.zeros(len(feature.values), np.int64)
-    (intervals,) = repeats((feature,), labels, RATE)
+    (intervals,) = repeats(Repetitions((feature,), RATE), labels)
     assert all(a.end == b.start for a, b in pairwise(intervals))
     assert (intervals[0].start, intervals[-1].end) == (0, len(labels))
     return [interval.end for interval in intervals]
@@ -65,7 +65,7 @@ def test_segments_are_looked_at_one_by_one():
     one, other = swings((30,) * 5), swings((45,) * 4)
     feature = Features("strain", np.concatenate([one.values, other.values[:, ::-1]]), 1.0)
     labels = np.repeat([0, 1], [len(one.values), len(other.values)])
-    assert [len(of_segment) for of_segment in repeats((feature,), labels, RATE)] == [5, 4]
+    assert [len(of_segment) for of_segment in repeats(Repetitions((feature,), RATE), labels)] == [5, 4]
 
 
 def test_unlikeness_is_that_of_its_definition():
@@ -90,7 +90,7 @@ def test_the_figures_repetitions_are_counted(name):
     take = read_animation({"figure.glb": sample.glb}, Parameters(), Limits.none(), lambda n: memoryview(bytearray(n)))
     analysis = analyse(take, Parameters())
     labels = np.repeat(np.arange(len(truth.segments)) % 2, [end - start for _, start, end in truth.segments])
-    told = repeats(analysis.features, labels, analysis.frame_rate)
+    told = repeats(Repetitions.of(analysis), labels)
     right = [(mine, true) for mine, true in zip(told, truth.repeats, strict=True) if len(mine) == len(true)]
     assert len(right) >= 0.9 * len(told)
     misses = [abs(m.end - t) for mine, true in right for m, t in zip(mine, true, strict=True)]
