@@ -9,8 +9,9 @@ from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddle
 
 from service import errors, openapi
 from service.backend import opened
+from service.guard import Guard
 from service.queries import only_known
-from service.routes import about, animations, clips, health, pages, results, segmentations
+from service.routes import about, animations, clips, health, pages, results, segmentations, session
 from service.security import SecurityHeaders
 from service.settings import ServiceSettings
 
@@ -36,11 +37,12 @@ def create_app(settings: ServiceSettings) -> FastAPI:
         generate_unique_id_function=openapi.operation_name,
     )
     errors.install(app)
-    for routes in (animations, segmentations, results, clips, about, health):
+    for routes in (animations, segmentations, results, clips, session, about, health):
         app.include_router(routes.router, dependencies=[Depends(only_known)])
     app.include_router(pages.router)
     pages.mount(app)
     openapi.describe(app)
+    app.add_middleware(Guard, settings=settings)
     app.add_middleware(GZipMiddleware, compresslevel=6, exclude_content_types=(*DEFAULT_EXCLUDED_CONTENT_TYPES, *FILES))
     app.add_middleware(SecurityHeaders)
     return app

@@ -12,6 +12,7 @@ from anyio import CancelScope, move_on_after, to_thread
 from fastapi import Depends, Request
 
 from service.errors import Refusal
+from service.key_file import KeyFile
 from service.settings import ServiceSettings
 from worker import ids
 from worker.async_records import AsyncRecords
@@ -29,6 +30,7 @@ class Backend:
     records: AsyncRecords
     jobs: Jobs
     blobs: Blobs
+    key_file: KeyFile
     _waits: set[CancelScope] = field(default_factory=set)
 
     @cached_property
@@ -93,7 +95,8 @@ async def opened(settings: ServiceSettings) -> AsyncIterator[Backend]:
     client = connect(settings.redis_location)
     jobs = Jobs(client, settings.attempts, settings.job_seconds)
     try:
-        yield Backend(settings, records, jobs, Blobs.open(settings.store_location, settings.scratch_dir))
+        blobs = Blobs.open(settings.store_location, settings.scratch_dir)
+        yield Backend(settings, records, jobs, blobs, KeyFile(settings.keys_file))
     finally:
         await records.close()
         client.close()

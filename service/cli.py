@@ -3,6 +3,7 @@
 import click
 
 from service.commands.demo import demo
+from service.commands.keys import keys
 from service.commands.options import dashes
 from service.commands.score import score
 from service.commands.segment import segment
@@ -20,7 +21,7 @@ def main() -> None:
     """
 
 
-for command in (serve, worker, segment, submit, score, demo):
+for command in (serve, worker, keys, segment, submit, score, demo):
     main.add_command(command)
 
 

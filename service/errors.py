@@ -7,6 +7,7 @@ and an RFC 9457 problem document. Routes raise; none of them catches.
 import errno
 import logging
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
 from fastapi import FastAPI, Request, Response
@@ -33,11 +34,18 @@ STATUS: dict[str, int] = {
     "parameter": 422,
     # codes, where one of a kind has a status of its own
     "upload-too-large": 413,
+    "key-needed": 401,
+    "unknown-key": 401,
+    "foreign-host": 403,
+    "foreign-origin": 403,
     "not-found": 404,
     "method-not-allowed": 405,
     "not-acceptable": 406,
     "not-finished": 409,
     "cancelled": 409,
+    "too-many-revisions": 409,
+    "stale-revision": 412,
+    "no-if-match": 428,
     "gone": 410,
     "animation-deleted": 410,
     "range-not-satisfiable": 416,
@@ -62,6 +70,7 @@ class Refusal(CaesuraError):
     """The request cannot be answered as it stands: nothing there, not ready yet, or not understood."""
 
     kind = "request"
+    headers: Mapping[str, str] = MappingProxyType({})
 
 
 def status_of(problem: Mapping[str, Any]) -> int:
@@ -96,8 +105,13 @@ def install(app: FastAPI) -> None:
     app.exception_handler(Exception)(_bug)
 
 
+def refusal_response(refused: Refusal) -> Response:
+    """A refusal, with the headers that belong to it."""
+    return problem_response(refused.problem(), refused.headers)
+
+
 async def _known(_: Request, error: CaesuraError) -> Response:
-    return problem_response(error.problem())
+    return refusal_response(error) if isinstance(error, Refusal) else problem_response(error.problem())
 
 
 async def _invalid(_: Request, error: RequestValidationError) -> Response:
@@ -143,6 +157,11 @@ async def _storage(_: Request, error: OSError) -> Response:
 
 
 async def _unavailable(_: Request, error: Exception) -> Response:
+    return unavailable(error)
+
+
+def unavailable(error: Exception) -> Response:
+    """Redis does not answer."""
     log.error("Redis does not answer: %s", error)
     detail = "The queue cannot be reached just now. Nothing was lost; try again shortly."
     return problem_response({"kind": "infrastructure", "code": "queue-unavailable", "detail": detail})

@@ -62,6 +62,8 @@ def _document(app: FastAPI) -> dict[str, Any]:
         "description": "What is wrong, and what to do about it.",
         "content": {MEDIA_TYPE: {"schema": {"$ref": template.format(model="Problem")}, "example": PROBLEM}},
     }
+    document["components"]["securitySchemes"] = {"key": {"type": "http", "scheme": "bearer"}}
+    document["security"] = [{"key": []}, {}]  # the second: where the keeper of the service wants none
     for path in document["paths"].values():
         for operation in path.values():
             operation["responses"].pop("422", None)  # FastAPI's own form of a refusal, which is not ours

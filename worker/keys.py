@@ -10,6 +10,8 @@
 | caesura:segmentation:ID:document | string | the result document, JSON |
 | caesura:segmentation:ID:energy | string | little-endian float32, one per frame, NaN where there is none |
 | caesura:segmentation:ID:labels | string | little-endian uint16, one per frame |
+| caesura:revisions:ID | list | RevisionRecord of each revision in order, JSON |
+| caesura:revised:ID | hash | number of a revision: its segments, JSON |
 | caesura:segmentations:ANIMATION | sorted set | ids of segmentations by time of creation |
 | caesura:live | set | ids of segmentations that are queued or running |
 | caesura:lease:TOKEN | string, expires | the attempt has a living worker |
@@ -18,6 +20,10 @@
 | caesura:export:ID:FORM | string | ExportRecord, JSON; the form is a name and its options |
 | caesura:exports:ID | set | the forms that were ever asked for |
 | caesura:swept | string, expires | somebody looked lately for what is kept too long |
+| caesura:keys | hash | names of API keys, each with its digest |
+| caesura:key:DIGEST | string | KeyRecord, JSON |
+| caesura:session:DIGEST | string, expires | the digest of the key that was signed in with |
+| caesura:rate:DIGEST:ADDRESS | hash, expires | how many requests are left |
 | caesura:changed:ID | channel | told at every change of a segmentation or its exports |
 """
 
@@ -26,6 +32,7 @@ from typing import Literal
 LIVE_KEY = "caesura:live"
 USED_KEY = "caesura:used"
 SWEPT_KEY = "caesura:swept"
+API_KEYS_KEY = "caesura:keys"
 
 
 def animation_key(identifier: str) -> str:
@@ -41,6 +48,16 @@ def animations_key(owner: str) -> str:
 def segmentation_key(identifier: str, part: Literal["", "document", "energy", "labels"] = "") -> str:
     """One segmentation's record, or a part of its result."""
     return f"caesura:segmentation:{identifier}" + (f":{part}" if part else "")
+
+
+def revisions_key(segmentation: str) -> str:
+    """A result's revisions, in order."""
+    return f"caesura:revisions:{segmentation}"
+
+
+def revised_key(segmentation: str) -> str:
+    """The segments of a result's revisions, by number."""
+    return f"caesura:revised:{segmentation}"
 
 
 def segmentations_key(animation: str) -> str:
@@ -71,6 +88,21 @@ def exports_key(segmentation: str) -> str:
 def lease_key(token: str) -> str:
     """The sign of life of an attempt."""
     return f"caesura:lease:{token}"
+
+
+def api_key_key(digest: str) -> str:
+    """One API key, by its digest."""
+    return f"caesura:key:{digest}"
+
+
+def session_key(digest: str) -> str:
+    """One browser that is signed in, by the digest of its cookie."""
+    return f"caesura:session:{digest}"
+
+
+def rate_key(digest: str, address: str) -> str:
+    """The requests of one key from one address."""
+    return f"caesura:rate:{digest}:{address}"
 
 
 def channel(segmentation: str) -> str:

@@ -33,9 +33,10 @@ class Refused(CaesuraError):
 class Client:
     """One service. Close it, or use it as a context."""
 
-    def __init__(self, url: str) -> None:
+    def __init__(self, url: str, key: str = "") -> None:
         self.url = url.rstrip("/")
         self._http = httpx.Client(
+            headers={"Authorization": f"Bearer {key}"} if key else {},
             base_url=self.url,
             timeout=httpx.Timeout(ANSWER_SECONDS, connect=CONNECT_SECONDS),
             trust_env=False,  # no proxy stands between this command and the service it is told

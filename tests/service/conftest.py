@@ -67,8 +67,8 @@ def _free_port():
 
 
 @contextmanager
-def serve(checkout, data, redis_url, workers):
-    """A web process, with workers beside it or without, until the block ends."""
+def serve(checkout, data, redis_url, workers, **settings):
+    """A web process, with workers beside it or without, until the block ends; `settings` as CAESURA_… variables."""
     port = _free_port()
     env = {
         **{name: value for name, value in os.environ.items() if not name.startswith("CAESURA_")},
@@ -77,6 +77,7 @@ def serve(checkout, data, redis_url, workers):
         "CAESURA_PORT": str(port),
         "CAESURA_MAX_UPLOAD_BYTES": str(UPLOAD_LIMIT),
         "PYTHONPATH": str(checkout),
+        **{f"CAESURA_{name.upper()}": str(value) for name, value in settings.items()},
     }
     url = f"http://127.0.0.1:{port}"
     with _process(sys.executable, "-m", "service", env=env) as web, httpx.Client(base_url=url, timeout=60) as http:
@@ -102,12 +103,12 @@ def _until_ready(web, http):
 
 
 @contextmanager
-def with_its_own_redis(checkout, folder, workers):
+def with_its_own_redis(checkout, folder, workers, **settings):
     """A service and its queue, in a folder of their own."""
     redis = EmbeddedRedis(folder / "redis")
     redis.start()
     try:
-        with serve(checkout, folder, redis.url, workers=workers) as running:
+        with serve(checkout, folder, redis.url, workers=workers, **settings) as running:
             yield running
     finally:
         redis.stop()

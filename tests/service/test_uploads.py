@@ -136,7 +136,7 @@ def test_an_upload_that_breaks_off_leaves_nothing(service):
     host, port = service.url.removeprefix("http://").split(":")
     with socket.create_connection((host, int(port))) as half:
         half.sendall(
-            b"POST /v1/animations HTTP/1.1\r\nHost: x\r\nContent-Length: 5000000\r\n\r\nglTF" + bytes(2_000_000)
+            b"POST /v1/animations HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5000000\r\n\r\nglTF" + bytes(2_000_000)
         )
         _until(service.spooled)
     _until(lambda: not service.spooled())

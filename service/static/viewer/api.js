@@ -1,5 +1,7 @@
 // The REST calls of the page. It is a client like any other: nothing here that curl could not do.
 
+import { signedIn } from './signin.js';
+
 /** A refusal, with the problem document (RFC 9457) it came with. */
 export class Problem extends Error {
   constructor(document) {
@@ -18,6 +20,7 @@ async function call(method, path, { body, headers, signal } = {}) {
     if (failure.name === 'AbortError') throw failure;
     throw new Problem(UNREACHABLE);
   }
+  if (answer.status === 401) { await signedIn(); return call(method, path, { body, headers, signal }); }
   if (!answer.ok) throw new Problem(await problemOf(answer));
   return answer.status === 204 ? null : answer.json();
 }

@@ -1,0 +1,85 @@
+"""`caesura keys`: who may use the service."""
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+import click
+
+from core.errors import ParameterError
+from service.commands.problems import Command, Unreachable
+
+if TYPE_CHECKING:
+    from service.credentials import KeyRing
+
+
+@click.group()
+def keys() -> None:
+    """Make, list and revoke the keys of the service that REDIS_URL or CAESURA_DATA_DIR names.
+
+    A key is shown once; only its SHA-256 is kept. Each key sees what was made with it, and nothing else.
+    """
+
+
+@keys.command(cls=Command)
+@click.argument("name")
+@click.option("--like", metavar="NAME", help="See what the key NAME sees, so that this one can take its place.")
+@click.option("--local", is_flag=True, help="See what was made while no key was needed.")
+@click.option("--line", is_flag=True, help="Keep it nowhere: print the line for CAESURA_KEYS_FILE too.")
+def add(name: str, like: str | None, local: bool, line: bool) -> None:
+    """Make a key called NAME, and show it."""
+    from service import key_file
+    from service.credentials import new_key
+
+    if like and local:
+        raise ParameterError("invalid-parameter", "--like and --local each say whose the key is. Give one of them.")
+    if line:
+        if like:
+            raise ParameterError("invalid-parameter", "With --line, copy the owner from the other key's line.")
+        key, record = new_key(name)
+        click.echo(f"{key}\n{key_file.line(record)}")
+        return
+    with _ring() as ring:
+        key, record = new_key(name, "" if local else ring.named(like).owner if like else None)
+        ring.add(record)
+    click.echo(key)
+
+
+@keys.command("list", cls=Command)
+def list_() -> None:
+    """Names, and the day each was made."""
+    with _ring() as ring:
+        for record in ring.all():
+            click.echo(f"{record.name:<32} {time.strftime('%Y-%m-%d', time.gmtime(record.created))}")
+
+
+@keys.command(cls=Command)
+@click.argument("name")
+def revoke(name: str) -> None:
+    """End the key NAME, and whatever is signed in with it. What was made with it stays, until its time is up."""
+    with _ring() as ring:
+        ring.revoke(name)
+
+
+@contextmanager
+def _ring() -> Iterator["KeyRing"]:
+    """The keys of the service; raises `Unreachable` where its Redis does not answer."""
+    from redis.exceptions import RedisError
+
+    from service.credentials import KeyRing
+    from service.settings import ServiceSettings
+    from worker.records import connect
+
+    location = ServiceSettings().redis_location
+    try:
+        with connect(location) as client:
+            yield KeyRing(client)
+    except RedisError:
+        detail = f"The service's Redis at {_plain(location)} does not answer. Start the service first."
+        raise Unreachable("redis-unavailable", detail) from None
+
+
+def _plain(location: str) -> str:
+    """An address without the password in it."""
+    return location.rpartition("@")[2] if "@" in location else location

@@ -1,0 +1,37 @@
+"""Signing in and out, for browsers: a key for a cookie."""
+
+from fastapi import APIRouter, Request, Response
+from pydantic import BaseModel, Field
+
+from service import sessions
+from service.backend import Behind
+from service.credentials import digest_of
+from service.guard import Unknown
+from service.visitors import find_key
+
+router = APIRouter(prefix="/v1/session", tags=["session"])
+
+
+class SignIn(BaseModel):
+    """A key, as `caesura keys add` showed it."""
+
+    key: str = Field(min_length=1, max_length=200)
+
+
+@router.post("", status_code=204)
+async def sign_in(request: Request, backend: Behind, given: SignIn) -> Response:
+    """Give a key, get a cookie that stands for it until its time is up, or the key is revoked."""
+    record = await find_key(backend, digest_of(given.key.strip()))
+    if record is None:
+        raise Unknown("unknown-key", "This key opens nothing here: it is wrong, or it was revoked.")
+    response = Response(status_code=204)
+    await sessions.begin(backend.records.redis, record.digest, request, response)
+    return response
+
+
+@router.delete("", status_code=204)
+async def sign_out(request: Request, backend: Behind) -> Response:
+    """The cookie stands for nothing any more."""
+    response = Response(status_code=204)
+    await sessions.end(backend.records.redis, request, response)
+    return response

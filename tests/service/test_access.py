@@ -1,0 +1,286 @@
+"""Nobody gets in without a key, and nobody learns of another's things: every call that OpenAPI lists is tried."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import httpx
+import pytest
+import redis
+
+from service.app import create_app
+from service.credentials import KeyRing, new_key
+from service.key_file import line
+from service.settings import ServiceSettings
+from tests.service.conftest import serve, with_its_own_redis
+
+OPEN = {"GET /healthz", "GET /readyz", "POST /v1/session", "DELETE /v1/session"}
+"""What needs no key. Whatever else there is, or will be, does."""
+
+HERE = {"suffix": "json", "number": "0", "n": "0", "revision": "0"}
+ELSEWHERE = "https://elsewhere.example"
+PATHS = create_app(ServiceSettings(data_dir=Path("never-made"))).openapi()["paths"]
+CALLS = [f"{method.upper()} {path}" for path, operations in PATHS.items() for method in operations]
+
+
+@pytest.fixture(scope="module")
+def guarded(checkout, tmp_path_factory):
+    """A service that wants keys, with two owners and what the first has uploaded."""
+    folder = tmp_path_factory.mktemp("guarded")
+    late, late_record = new_key("mounted")
+    (folder / "keys").write_text(f"# keys\n{line(late_record)}\n")
+    with with_its_own_redis(checkout, folder, workers=False, access="keys", keys_file=folder / "keys") as running:
+        yield Guarded(running, late)
+
+
+class Guarded:
+    """Asks as somebody; knows what the first owner has."""
+
+    def __init__(self, running, mounted):
+        self.running, self.url, self.mounted = running, running.url, mounted
+        self.redis = redis.Redis.from_url(running.redis_url)
+        self.ring = KeyRing(self.redis)
+        self.mine, self.theirs, self.revoked = (self.key(name) for name in ("mine", "theirs", "revoked"))
+        self.ring.revoke("revoked")
+        self.animation = self.segmentation = ""
+
+    def key(self, name, owner=None):
+        key, record = new_key(name, owner)
+        self.ring.add(record)
+        return key
+
+    def ask(self, call, key=None, unknown=False, **more):
+        """The answer to `METHOD /path/{…}` about what the first owner has, or about what nobody has."""
+        method, path = call.split(" ", 1)
+        animation, segmentation = ("a" * 26, "b" * 26) if unknown else (self.animation, self.segmentation)
+        own = animation if path.startswith("/v1/animations") else segmentation
+        path = path.replace("{identifier}", own)
+        path = re.sub(r"\{(\w+)\}", lambda match: HERE[match[1]], path)
+        query = {"animation": animation} if call == "GET /v1/segmentations" else {}
+        headers = {"Authorization": f"Bearer {key}"} if key else {}
+        headers |= more.pop("headers", {})
+        if not {"content", "json"} & more.keys() and "requestBody" in PATHS[call.split(" ", 1)[1]][method.lower()]:
+            more |= {"content": b"{}"}
+            headers |= {"Content-Type": "application/json"}
+        return httpx.request(method, self.url + path, headers=headers, params=query, timeout=30, **more)
+
+    def plain(self, answer):
+        """What an answer says, but for the id that was asked for and the hour."""
+        text = answer.text
+        for identifier, stand_in in ((self.animation, "A"), (self.segmentation, "S"), ("a" * 26, "A"), ("b" * 26, "S")):
+            text = text.replace(identifier, stand_in)
+        headers = {name: value for name, value in answer.headers.items() if name not in {"date", "content-length"}}
+        return (
+            answer.status_code,
+            {n: v for n, v in headers.items() if not n.startswith(("ratelimit", "x-request"))},
+            text,
+        )
+
+    def cookie(self, key):
+        answer = httpx.post(f"{self.url}/v1/session", json={"key": key}, headers={"Origin": self.url})
+        assert answer.status_code == 204
+        return {"Cookie": answer.headers["set-cookie"].partition(";")[0]}
+
+
+@pytest.fixture(scope="module")
+def owned(guarded, take):
+    """The same, once the first owner has sent a take."""
+    answer = guarded.ask("POST /v1/segmentations", guarded.mine, content=take(700), headers={"Content-Type": "model/x"})
+    assert answer.status_code == 202
+    guarded.segmentation, guarded.animation = answer.json()["id"], answer.json()["animation"]
+    return guarded
+
+
+@pytest.mark.parametrize("call", [call for call in CALLS if call not in OPEN])
+def test_a_call_is_only_for_those_with_a_key(owned, call):
+    """401 without, with a wrong or a revoked key, in the same words whether the thing exists; 403 from elsewhere."""
+    key_less = owned.ask(call)
+    assert (key_less.status_code, key_less.json()["code"]) == (401, "key-needed")
+    assert "Bearer" in key_less.headers["WWW-Authenticate"]
+    wrong = owned.ask(call, "caesura_" + "x" * 43)
+    assert (wrong.status_code, wrong.json()["code"]) == (401, "unknown-key")
+    assert owned.plain(owned.ask(call, owned.revoked)) == owned.plain(wrong)
+    assert owned.plain(owned.ask(call, unknown=True)) == owned.plain(key_less)
+    for headers in ({"Origin": ELSEWHERE}, {"Origin": "null"}, {"Sec-Fetch-Site": "cross-site"}):
+        foreign = owned.ask(call, headers=owned.cookie(owned.mine) | headers)
+        assert (foreign.status_code, foreign.json()["code"]) == (403, "foreign-origin"), headers
+
+
+@pytest.mark.parametrize("call", [call for call in CALLS if "{identifier}" in call or call == "GET /v1/segmentations"])
+def test_another_owners_things_are_as_if_they_were_not_there(owned, call):
+    """Status, headers and every word of the answer are those of an id that nobody has."""
+    theirs = owned.ask(call, owned.theirs)
+    assert owned.plain(theirs) == owned.plain(owned.ask(call, owned.theirs, unknown=True))
+    assert 400 <= theirs.status_code < 500
+    assert owned.segmentation in owned.ask("GET /v1/segmentations/{identifier}", owned.mine).text
+
+
+def test_each_owner_has_a_list_and_ids_of_its_own(owned, take):
+    """The same bytes from another owner are another animation; neither sees the other's."""
+    again = owned.ask("POST /v1/animations", owned.theirs, content=take(700), headers={"Content-Type": "model/x"})
+    assert again.status_code == 201
+    assert again.json()["id"] != owned.animation
+    lists = [owned.ask("GET /v1/animations", key).json()["animations"] for key in (owned.mine, owned.theirs)]
+    assert [[entry["id"] for entry in entries] for entries in lists] == [[owned.animation], [again.json()["id"]]]
+    named = owned.ask("POST /v1/segmentations", owned.theirs, json={"animation": owned.animation})
+    assert (named.status_code, named.json()["code"]) == (404, "not-found")
+
+
+@pytest.mark.parametrize("call", sorted(OPEN))
+def test_what_needs_no_key_is_guarded_from_other_pages_unless_it_is_a_probe(owned, call):
+    """Signing in or out from another page is refused; probes tell nothing worth a secret."""
+    answer = owned.ask(call, headers={"Origin": ELSEWHERE}, json={"key": owned.mine} if "POST" in call else None)
+    assert answer.status_code == (403 if "session" in call else 200)
+    assert "set-cookie" not in answer.headers
+
+
+def test_a_browser_signs_in_for_a_cookie_and_out_again(owned):
+    """No script reads it, no other site sends it; it writes only for our own page; signed out it is worth nothing."""
+    call = "POST /v1/segmentations"
+    body = {"json": {"animation": owned.animation, "motions": 2}}
+    answer = httpx.post(f"{owned.url}/v1/session", json={"key": owned.mine}, headers={"Origin": owned.url})
+    flags = answer.headers["set-cookie"].lower()
+    assert all(flag in flags for flag in ("httponly", "samesite=strict", "path=/", "max-age="))
+    assert owned.mine not in flags
+    cookie = {"Cookie": answer.headers["set-cookie"].partition(";")[0]}
+    ours = cookie | {"Origin": owned.url}
+    assert owned.ask("GET /v1/animations", headers=cookie).status_code == 200
+    assert owned.ask(call, headers=ours, **body).status_code == 202
+    assert owned.ask(call, headers=cookie, **body).json()["code"] == "foreign-origin"
+    gone = owned.ask("DELETE /v1/session", headers=ours)
+    assert gone.status_code == 204
+    assert owned.ask("GET /v1/animations", headers=cookie).json()["code"] == "key-needed"
+
+
+def test_a_revoked_key_ends_its_sessions(owned):
+    """At once, and what it had uploaded is still its owner's by another key."""
+    key = owned.key("passing", owner=owned.ring.named("mine").owner)
+    cookie = owned.cookie(key)
+    status = "GET /v1/segmentations/{identifier}"
+    assert owned.ask(status, headers=cookie).status_code == owned.ask(status, key).status_code == 200
+    owned.ring.revoke("passing")
+    assert owned.ask(status, headers=cookie).status_code == owned.ask(status, key).status_code == 401
+    assert owned.ask(status, owned.mine).status_code == 200
+
+
+def test_a_wrong_key_does_not_sign_in(owned):
+    """401, no cookie, and the key is in no answer."""
+    answer = httpx.post(f"{owned.url}/v1/session", json={"key": "caesura_secret"})
+    assert (answer.status_code, answer.json()["code"]) == (401, "unknown-key")
+    assert "set-cookie" not in answer.headers
+    assert "caesura_secret" not in answer.text
+
+
+def test_a_mounted_file_of_keys_is_read_again_when_it_changes(owned):
+    """A line more lets in; the line gone, nobody; a line that is none is skipped."""
+    file = owned.running.data / "keys"
+    assert owned.ask("GET /v1/limits", owned.mounted).status_code == 200
+    key, record = new_key("second")
+    file.write_text(f"no line of ours\n{line(record)}  # for the farm\n")
+    assert owned.ask("GET /v1/limits", key).status_code == 200
+    assert owned.ask("GET /v1/limits", owned.mounted).status_code == 401
+    file.unlink()
+    assert owned.ask("GET /v1/limits", key).status_code == 401
+
+
+def test_redis_holds_no_key(owned):
+    """Only digests: whoever reads all of it can sign in as nobody."""
+    owned.cookie(owned.mine)
+    held = b"".join(owned.redis.dump(key) or b"" for key in owned.redis.scan_iter()) + b"".join(owned.redis.scan_iter())
+    for key in (owned.mine, owned.theirs):
+        assert key.encode() not in held
+        assert key.removeprefix("caesura_").encode() not in held
+
+
+def test_the_command_makes_lists_and_revokes_keys(owned, checkout):
+    """The key is shown once; afterwards there is its name; `--like` sees what the other sees."""
+
+    def caesura(*arguments, status=0):
+        env = {"REDIS_URL": owned.running.redis_url, "CAESURA_DATA_DIR": str(owned.running.data), "PATH": ""}
+        command = [sys.executable, "-m", "service.cli", "keys", *arguments]
+        done = subprocess.run(command, check=False, env=env, cwd=checkout, capture_output=True, text=True, timeout=60)
+        assert done.returncode == status, done.stderr
+        return done.stdout
+
+    key = caesura("add", "farm", "--like", "mine").strip()
+    assert owned.ask("GET /v1/segmentations/{identifier}", key).status_code == 200
+    assert key not in caesura("list")
+    assert re.search(r"^farm +\d{4}-\d\d-\d\d$", caesura("list"), re.MULTILINE)
+    caesura("add", "farm", status=2)
+    caesura("revoke", "farm")
+    assert owned.ask("GET /v1/limits", key).status_code == 401
+    assert "farm" not in caesura("list")
+
+
+@pytest.mark.parametrize("call", ["GET /v1/animations", "POST /v1/animations", "GET /openapi.json", "GET /"])
+def test_without_keys_only_pages_of_our_own_may_ask(idle, call):
+    """A name that leads here but is not ours (DNS rebinding), a form of another site, another port of this machine."""
+    method, path = call.split()
+    port = httpx.URL(idle.url).port
+    for headers in (
+        {"Host": "evil.example"},
+        {"Host": f"evil.example:{port}", "Origin": f"http://evil.example:{port}"},
+        {"Origin": ELSEWHERE},
+        {"Origin": f"http://localhost:{port + 1}", "Host": f"localhost:{port}"},
+        {"Origin": "null"},
+    ):
+        answer = idle.http.request(method, path, headers=headers)
+        assert answer.status_code == 403, headers
+        assert answer.json()["code"] in {"foreign-host", "foreign-origin"}
+        assert "access-control-allow-origin" not in answer.headers
+    for headers in (
+        {"Host": f"localhost:{port}"},
+        {"Origin": idle.url},
+        {"Host": f"[::1]:{port}"},
+        {"Host": "10.0.0.7"},
+    ):
+        assert idle.http.request(method, path, headers=headers).status_code != 403, headers
+
+
+def test_a_link_from_elsewhere_leads_to_the_page_but_a_script_does_not_get_through(idle):
+    """The browser says which it is."""
+    followed = {"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "navigate"}
+    assert idle.http.get("/", headers=followed).status_code == 200
+    assert idle.http.post("/v1/animations", headers=followed).status_code == 403
+    assert idle.http.get("/v1/animations", headers=followed | {"Sec-Fetch-Mode": "no-cors"}).status_code == 403
+
+
+def test_a_preflight_is_told_nothing(idle):
+    """CORS is closed."""
+    answer = idle.http.options("/v1/animations", headers={"Origin": idle.url, "Access-Control-Request-Method": "POST"})
+    assert not [name for name in answer.headers if name.startswith("access-control")]
+
+
+def test_names_can_be_added_and_floods_wait(checkout, idle, tmp_path):
+    """CAESURA_PUBLIC_HOSTS admits a name; past the limit 429 says when to come back, and probes are still answered."""
+    settings = {"public_hosts": "caesura.example, other.example", "requests_a_minute": 5}
+    with serve(checkout, tmp_path, idle.redis_url, workers=False, **settings) as other:
+        named = {"Host": "caesura.example", "Origin": "https://caesura.example"}
+        answers = [other.http.get("/v1/limits", headers=named) for _ in range(6)]
+        assert [answer.status_code for answer in answers] == [200] * 5 + [429]
+        assert answers[0].headers["RateLimit-Policy"] == '"requests";q=5;w=60'
+        assert [re.search(r"r=(\d+)", answer.headers["RateLimit"])[1] for answer in answers] == list("432100")
+        assert answers[-1].json()["code"] == "too-many-requests"
+        assert 1 <= int(answers[-1].headers["Retry-After"]) <= 12
+        assert other.http.get("/healthz").status_code == other.http.get("/readyz").status_code == 200
+
+
+@pytest.mark.parametrize(
+    ("host", "access", "needed"),
+    [
+        ("127.0.0.1", "auto", False),
+        ("::1", "auto", False),
+        ("localhost", "auto", False),
+        ("0.0.0.0", "auto", True),
+        ("192.168.1.2", "auto", True),
+        ("caesura.example", "auto", True),
+        ("0.0.0.0", "open", False),
+        ("127.0.0.1", "keys", True),
+    ],
+)
+def test_keys_are_needed_beyond_this_machine_unless_said_otherwise(host, access, needed):
+    """And where they are, requests are counted."""
+    settings = ServiceSettings(host=host, access=access)
+    assert settings.keys_needed == needed
+    assert (settings.rate_limit > 0) == needed
