@@ -6,7 +6,8 @@ BIN := .venv/bin
 READY := .venv/ready-$(shell pwd | cksum | cut -d' ' -f1)
 LOCKED := pip install --quiet --disable-pip-version-check
 # For every platform and Python at once, with digests and without the name of any registry.
-COMPILE := uv pip compile pyproject.toml --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --quiet
+RESOLVE := uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --quiet
+COMPILE := $(RESOLVE) pyproject.toml
 
 .PHONY: help setup demo test lint bench lock clean
 
@@ -51,6 +52,7 @@ lock:
 	@command -v uv > /dev/null || { echo "make lock needs uv on the PATH"; exit 1; }
 	$(COMPILE) --upgrade --group assets --group test --group build -o requirements.lock
 	$(COMPILE) --upgrade --constraints requirements.lock -o requirements.runtime.lock
+	$(RESOLVE) --upgrade --group audit -o requirements.audit.lock
 
 clean:
 	rm -rf .venv node_modules service/static/vendor dist build .mypy_cache .ruff_cache .pytest_cache .import_linter_cache .hypothesis

@@ -18,7 +18,7 @@ RAISED = re.compile(
     r"\b(?:InputError|UnsupportedMedia|BrokenContainer|InvalidModel|LimitExceeded|ParameterError|Refusal|worker_problem)"
     r'\(\s*"([a-z0-9-]+)"'
 )
-LOCKS = ["requirements.lock", "requirements.runtime.lock", "package-lock.json"]
+LOCKS = ["requirements.lock", "requirements.runtime.lock", "requirements.audit.lock", "package-lock.json"]
 
 
 def blocks(page: str) -> str:
