@@ -1,6 +1,6 @@
 """The same take cut into other numbers of motions: what a slider shows that goes over K."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from core.analysis import Analysis
 from core.parameters import Parameters
@@ -8,12 +8,13 @@ from core.pipeline import cut
 from core.segmentation import Segmentation
 
 
-def alternatives(analysis: Analysis, parameters: Parameters, found: Segmentation) -> Iterator[Segmentation]:
-    """What `cut` answers for every number of motions that was scored when `found` chose its own; the nearest first.
+def alternatives(
+    analysis: Analysis, parameters: Parameters, scored: Iterable[int], chosen: int
+) -> Iterator[Segmentation]:
+    """What `cut` answers for every number of motions that was scored when it chose one; the nearest to that first.
 
-    Exactly what it answers when that number is asked for. What the cuts have in common is computed once, so that
-    each takes a fraction of the first (`Analysis.once`). Nothing where the number was given: nothing was scored.
+    Exactly what it answers when told that number. What the cuts have in common is computed once, so that each takes
+    a fraction of the first (`Analysis.once`).
     """
-    scored = [score.motions for score in found.scores]
-    for motions in sorted(scored, key=lambda motions: abs(motions - found.motions)):
+    for motions in sorted(scored, key=lambda motions: (abs(motions - chosen), motions)):
         yield cut(analysis, parameters.model_copy(update={"motions": motions}))

@@ -3,10 +3,11 @@
 import time
 
 from core.formats.takes import choose_take
-from core.parameters import ALGORITHM, Parameters
+from core.parameters import ALGORITHM, TOLD_MOTIONS, Parameters
 from service.backend import Backend
 from service.errors import Refusal
 from worker import ids
+from worker.alternatives import recall
 from worker.schema import AnimationRecord, SegmentationRecord
 
 
@@ -25,26 +26,36 @@ def resolved(parameters: Parameters, animation: AnimationRecord) -> Parameters:
 
 
 def submit(backend: Backend, animation: AnimationRecord, parameters: Parameters, name: str) -> SegmentationRecord:
-    """The segmentation, queued now or before. Blocks: run it on a thread.
+    """The segmentation, queued now or before; done, where the answer was stored though nobody had asked for it.
+
+    Blocks: run it on a thread.
 
     Raises `Refusal` ("gone") where it would have to be computed and the upload's files are no longer kept.
     """
     chosen = resolved(parameters, animation)
-    identifier = ids.segmentation_id(backend.secret, animation.id, chosen.canonical(), ALGORITHM)
+    identifier = _identifier(backend, animation, chosen)
+    now = time.time()
+    wanted = SegmentationRecord(
+        id=identifier,
+        animation=animation.id,
+        owner=animation.owner,
+        name=name or animation.name,
+        parameters=chosen.model_dump(),
+        algorithm=ALGORITHM,
+        created=now,
+        updated=now,
+    )
+    if chosen.motions != "auto" and chosen.method not in TOLD_MOTIONS:
+        unasked = _identifier(backend, animation, chosen.model_copy(update={"motions": "auto"}))
+        stored = recall(backend.jobs.records, wanted, unasked)
+        if stored is not None:
+            return stored
     if not animation.parts:
         kept = backend.jobs.records.segmentation(identifier)
         if kept is None or not kept.settled:
             raise Refusal("gone", "The files of this animation are no longer kept. Upload it again to cut it anew.")
-    now = time.time()
-    return backend.jobs.submit(
-        SegmentationRecord(
-            id=identifier,
-            animation=animation.id,
-            owner=animation.owner,
-            name=name or animation.name,
-            parameters=chosen.model_dump(),
-            algorithm=ALGORITHM,
-            created=now,
-            updated=now,
-        )
-    )
+    return backend.jobs.submit(wanted)
+
+
+def _identifier(backend: Backend, animation: AnimationRecord, chosen: Parameters) -> str:
+    return ids.segmentation_id(backend.secret, animation.id, chosen.canonical(), ALGORITHM)

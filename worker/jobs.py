@@ -34,7 +34,7 @@ __all__ = ["Jobs", "TimeLimit", "worker_problem"]
 log = logging.getLogger(__name__)
 
 QUEUES: tuple[Queue, ...] = ("analyse", "cut")
-TASKS = {name: f"worker.tasks.run_{name}" for name in (*QUEUES, "export", "sweep")}
+TASKS = {name: f"worker.tasks.run_{name}" for name in (*QUEUES, "alternatives", "export", "sweep")}
 EXPORT_SECONDS = 120
 SWEEP_SECONDS = 3600
 RESULT_SECONDS = 60  # how long RQ remembers what our record knows anyway
@@ -126,6 +126,12 @@ class Jobs:
         return ExportRecord()
 
     # What workers say.
+
+    def submit_alternatives(self, identifier: str) -> None:
+        """Have the other numbers of motions worked out that a result has scored, when the takes before it are done."""
+        with self.redis.pipeline() as pipe:
+            self._call("analyse", "alternatives", [identifier], ids.token(), self._seconds, pipe)
+            pipe.execute()
 
     def again(self, identifier: str, token: str, problem: dict[str, Any]) -> SegmentationRecord | None:
         """The attempt was lost to the infrastructure: try once more, or fail with `problem` after the last attempt.

@@ -12,6 +12,7 @@
 | caesura:segmentation:ID:labels | string | little-endian uint16, one per frame |
 | caesura:revisions:ID | list | RevisionRecord of each revision in order, JSON |
 | caesura:revised:ID | hash | number of a revision: its segments, JSON |
+| caesura:alternatives:ID | hash | number of motions: what it would be cut into that many; `worker.alternatives` |
 | caesura:segmentations:ANIMATION | sorted set | ids of segmentations by time of creation |
 | caesura:live | set | ids of segmentations that are queued or running |
 | caesura:lease:TOKEN | string, expires | the attempt has a living worker |
@@ -58,6 +59,11 @@ def revisions_key(segmentation: str) -> str:
 def revised_key(segmentation: str) -> str:
     """The segments of a result's revisions, by number."""
     return f"caesura:revised:{segmentation}"
+
+
+def alternatives_key(segmentation: str) -> str:
+    """What a result would be with other numbers of motions."""
+    return f"caesura:alternatives:{segmentation}"
 
 
 def segmentations_key(animation: str) -> str:

@@ -202,6 +202,7 @@ class Records:
         with self.redis.pipeline() as pipe:
             parts = [keys.segmentation_key(record.id, part) for part in ("", "document", "energy", "labels")]
             pipe.delete(*parts)
+            pipe.delete(keys.alternatives_key(record.id))
             pipe.zrem(keys.segmentations_key(record.animation), record.id)
             pipe.srem(keys.LIVE_KEY, record.id)
             pipe.publish(keys.channel(record.id), b"deleted")

@@ -2,13 +2,16 @@
 
 from contextlib import suppress
 
+from core.alternatives import alternatives
 from core.analysis import Analysis
+from core.document import SegmentationDocument
 from core.formats.playback.play import playback
 from core.formats.read import read_animation
 from core.parameters import Parameters
 from core.pipeline import analyse, cut
 from worker import exports, ids
 from worker.allowance import Allowance
+from worker.alternatives import add_alternative
 from worker.attempt import Attempt, Superseded, carry_out
 from worker.blobs import BlobMissing, Blobs
 from worker.cpu import available_threads
@@ -31,6 +34,24 @@ def run_cut(identifier: str, token: str) -> None:
     """The job of the queue `cut`: another cut of a stored analysis. It never sees a vertex."""
     settings = WorkerSettings()
     carry_out(Jobs.open(settings), identifier, token, lambda attempt: _cut(attempt, settings))
+
+
+def run_alternatives(identifier: str) -> None:
+    """The result for every other number of motions that it scored: nobody waits for them, and none is a must."""
+    settings = WorkerSettings()
+    records = Jobs.open(settings).records
+    record, (document, _, _) = records.segmentation(identifier), records.result(identifier)
+    if record is None or record.analysis is None or document is None:
+        return  # deleted meanwhile
+    Allowance(settings.job_memory_bytes, settings.job_seconds)
+    blobs = Blobs.open(settings.store_location, settings.scratch_dir)
+    found = SegmentationDocument.model_validate_json(document)
+    scored = [score.motions for score in found.scores]
+    with suppress(BlobMissing):
+        analysis = Analysis.from_bytes(blobs.read(record.analysis.key))
+        for made in alternatives(analysis, record.chosen(), scored, found.motions):
+            if not add_alternative(records, identifier, made.document()):
+                return
 
 
 def run_export(identifier: str, form: str) -> None:
@@ -100,7 +121,7 @@ def _finish(attempt: Attempt, stored: AnalysisRecord, analysis: Analysis, parame
     attempt.progress("cut", 0.0)
     result = cut(analysis, parameters)
     document = result.document(attempt.record.id)
-    attempt.records.finish(
+    finished = attempt.records.finish(
         attempt.record.id,
         attempt.record.token,
         document.model_dump_json(),
@@ -110,6 +131,8 @@ def _finish(attempt: Attempt, stored: AnalysisRecord, analysis: Analysis, parame
         frames=document.frames,
         segments=document.segments,
     )
+    if finished and document.scores:
+        attempt.jobs.submit_alternatives(attempt.record.id)
 
 
 def _animation(attempt: Attempt) -> AnimationRecord:
