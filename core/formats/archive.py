@@ -77,8 +77,9 @@ class Archive:
     def place(self, name: str) -> tuple[int, int]:
         """The bytes [start, stop) of a stored member within the file."""
         info = self.members[name]
-        self._file.seek(info.header_offset)
-        record = self._file.read(LOCAL.size)
+        with broken_as_malformed():
+            self._file.seek(info.header_offset)  # which may be before the beginning
+            record = self._file.read(LOCAL.size)
         if len(record) < LOCAL.size:
             raise malformed("is cut off")
         *_, name_length, extra_length = LOCAL.unpack(record)

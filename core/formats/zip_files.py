@@ -60,8 +60,9 @@ class ZipFiles(Archive):
             name = info.filename
             if info.flag_bits & ENCRYPTED:
                 raise malformed("is encrypted")
-            if name in members or name.startswith("/") or "\\" in name or ".." in name.split("/") or ":" in name:
-                raise malformed(f"has a member {name[:80]!r}, a path out of it or there twice")
+            leads_out = name.startswith("/") or "\\" in name or ".." in name.split("/") or ":" in name
+            if not name or name in members or leads_out:
+                raise malformed(f"has a member {name[:80]!r}, without a name, a path out of it or there twice")
             if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
                 raise malformed("is compressed in another way than deflate")
             if info.compress_type == zipfile.ZIP_STORED and info.compress_size != info.file_size:

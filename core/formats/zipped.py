@@ -70,8 +70,8 @@ def _shape(files: ZipFiles, name: str, data: memoryview) -> tuple[Float[np.ndarr
         raise
     except Exception as wrong:  # noqa: BLE001  # a reader of free text may stumble in any way
         raise InvalidModel("malformed-shape", f"{name[:80]!r} cannot be read ({str(wrong)[:120]}).") from None
-    if places.ndim != 2 or faces.ndim != 2 or not len(places) or not len(faces):
-        raise InvalidModel("no-mesh", f"{name[:80]!r} has no triangles.")
+    if places.shape[1:] != (3,) or faces.shape[1:] != (3,) or not len(places) or not len(faces):
+        raise InvalidModel("no-mesh", f"{name[:80]!r} has no triangles in space.")
     if faces.min() < 0 or faces.max() >= len(places):
         raise InvalidModel("index-out-of-range", f"{name[:80]!r} names vertices that it does not have.")
     if not finite(places):

@@ -80,7 +80,7 @@ class Document:
 def check_extensions(root: Entry) -> None:
     """Raise `unsupported-extension` where the file cannot be understood without one that is not read here."""
     for place, name in enumerate(root.values("extensionsRequired")):
-        if name not in READ and not (isinstance(name, str) and name.startswith(HARMLESS)):
+        if not isinstance(name, str) or (name not in READ and not name.startswith(HARMLESS)):
             raise unsupported(name if isinstance(name, str) else "?", f"/extensionsRequired/{place}")
 
 

@@ -36,8 +36,9 @@ class Stream:
             mesh = DracoPy.decode(bytes(self.data))
         except (DracoPy.FileTypeException, ValueError, RuntimeError, TypeError, IndexError, OverflowError) as wrong:
             self.fail(f"cannot be decoded ({str(wrong)[:120]})")
-        if len(mesh.points) != self.vertices or np.size(getattr(mesh, "faces", ())) != self.corners:
-            self.fail(f"holds {len(mesh.points)} vertices")
+        points = 0 if mesh.points is None else len(mesh.points)  # None where no attribute is a position
+        if points != self.vertices or np.size(getattr(mesh, "faces", ())) != self.corners:
+            self.fail(f"holds {points} vertices")
         return mesh
 
     def attribute(self, unique_id: int, layout: Layout) -> Shaped[np.ndarray, "count width"]:

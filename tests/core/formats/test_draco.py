@@ -100,7 +100,21 @@ def _influences(model: Glb) -> None:
     extension(model)["attributes"].update(dict.fromkeys(both, 0))
 
 
+def _without_positions() -> Glb:
+    """Its one attribute is said to be of another kind."""
+    for place in range(11, 80):
+        data = bytearray(stream())
+        data[place] = 4
+        try:
+            if DracoPy.decode(bytes(data)).points is None:
+                return compressed(bytes(data))
+        except (DracoPy.FileTypeException, ValueError, TypeError):
+            continue
+    raise AssertionError
+
+
 HOSTILE: list[tuple[str, Callable[[], Glb], Mutation, str]] = [
+    ("no positions in the stream", _without_positions, lambda _: None, "decompression-failed"),
     ("garbage", lambda: compressed(b"garbage" * 9), lambda _: None, "decompression-failed"),
     ("an empty stream", lambda: compressed(b""), lambda _: None, "decompression-failed"),
     ("cut off", lambda: compressed(stream()[:-9]), lambda _: None, "decompression-failed"),

@@ -127,6 +127,7 @@ STRUCTURE: list[Row] = [
     ("minVersion 2.1", _set("asset", "minVersion", "2.1"), "unsupported-gltf-version", "/asset/version"),
     ("unknown extension", _set("extensionsRequired", ["X_y"]), "unsupported-extension", "/extensionsRequired/0"),
     ("extension is a number", _set("extensionsRequired", [1]), "unsupported-extension", "/extensionsRequired/0"),
+    ("extension is an object", _set("extensionsRequired", [{}]), "unsupported-extension", "/extensionsRequired/0"),
     ("accessors is null", _set("accessors", None), "invalid-gltf", "/accessors"),
     ("nodes is an object", _set("nodes", {}), "invalid-gltf", "/nodes"),
     ("a node is a number", _set("nodes", 0, 7), "invalid-gltf", "/nodes/0"),

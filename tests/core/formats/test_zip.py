@@ -87,6 +87,10 @@ HOSTILE = {
     "one shape": (dict([*shapes("obj").items()][:1]), "no-motion"),
     "shapes of two kinds": (shapes("obj") | shapes("ply"), "varying-topology"),
     "garbage as a shape": (dict.fromkeys(("a1.ply", "a2.ply"), b"garbage"), "malformed-shape"),
+    "shapes of a plane": (
+        {name: data.replace(b"property float z\n", b"") for name, data in shapes("ply").items()},
+        None,
+    ),
     "no faces": (dict.fromkeys(("a1.obj", "a2.obj"), b"v 0 0 0\n"), "no-mesh"),
     "a vertex that is not there": (dict.fromkeys(("a1.obj", "a2.obj"), b"v 0 0 0\nf 1 2 9\n"), None),
 }
@@ -107,7 +111,10 @@ def test_bombs_and_broken_zips_are_refused_by_their_directory() -> None:
         opened(bomb, Limits(max_inflated_bytes=2**20))
     good = zipped(separate(), zipfile.ZIP_STORED)
     many = zipped(dict.fromkeys(map("{}.obj".format, range(20_001)), b""))
-    for broken in (good[:-30], good.replace(b'"version"', b'"versioN"', 1), many):
+    nameless = zipped(separate() | {"QQQ": b""}).replace(b"QQQ", b"\0QQ")  # names end at a zero
+    stored = zipped(shapes("obj"), zipfile.ZIP_STORED)
+    headless = stored[:60] + stored[100:]  # its directory points before its beginning
+    for broken in (nameless, headless, good[:-30], good.replace(b'"version"', b'"versioN"', 1), many):
         with pytest.raises(CaesuraError) as refused:
             opened(broken)
         assert refused.value.code == "malformed-zip"
