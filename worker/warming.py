@@ -36,7 +36,7 @@ def moving_gltf() -> bytes:
     times = np.array([0, 1], np.float32)
     turns = np.array([[0, 0, 0, 1], [0, 0, 1, 0]], np.float32)
     writer = GlbWriter()
-    mesh = writer.mesh("triangle", [Primitive(corners, np.array([[0, 1, 2]], np.uint32))])
+    mesh = writer.mesh("triangle", [Primitive(corners, np.array([[0, 1, 2]]))])
     node = writer.node("triangle", mesh=mesh)
     writer.animation(
         "turn", [Channel(node, "rotation", times, turns), Channel(node, "translation", times, corners[:2])]

@@ -1,0 +1,88 @@
+"""What the fuzzer does with a file: its header, its takes, its animation, and some frames of it."""
+
+import io
+import time
+import zlib
+
+from core.errors import CaesuraError
+from core.formats.header import read_header
+from core.formats.read import read_animation, takes
+from core.limits import Limits
+from core.parameters import Parameters
+from tests.fuzz.parts import parted
+
+LIMITS = Limits(
+    max_decoded_bytes=2**26,
+    max_inflated_bytes=2**26,
+    max_vertices=50_000,
+    max_triangles=50_000,
+    max_target_vertices=2_000_000,
+    max_nodes=5_000,
+)
+"""A sixteenth of what a service allows, so that a file at a limit takes a sixteenth of the time."""
+
+LONGEST_SECONDS = 10.0
+"""Processor seconds for one file; more is a hang. Not the clock's: a busy machine is no hang of ours."""
+
+MOST_DRAWN = 2_000_000
+"""Coordinates of the frames that are drawn at a time."""
+
+ASKED = (
+    {},
+    {"take": 0, "fps": 30},
+    {"take": "all"},
+    {"trim": True, "fps": 24},
+    {"start": 0.25, "end": 0.75},
+    {"take": 1, "fps": 1000},
+    {"start": 0.5, "fps": 0.5},
+)
+"""Parameters that people send; which ones go with a file is told by its bytes."""
+
+
+class Hang(Exception):
+    """A file took longer than any may."""
+
+
+def attempt(data: bytes) -> bool:
+    """Whether the upload `data` was read; it may be refused. Whatever else is raised is a fault of ours."""
+    began = time.process_time()
+    parts = parted(data)
+    asked = Parameters.parse(dict(ASKED[zlib.crc32(data) % len(ASKED)]))
+    read = [_header(parts), _takes(parts), _frames(parts, asked)][-1]
+    if (seconds := time.process_time() - began) > LONGEST_SECONDS:
+        raise Hang(f"{seconds:.1f} processor seconds")
+    return read
+
+
+def _header(parts: dict[str, bytes]) -> None:
+    for name, data in parts.items():
+        try:
+            read_header(io.BytesIO(data), name, LIMITS)
+        except CaesuraError as refused:
+            _told(refused)
+
+
+def _takes(parts: dict[str, bytes]) -> None:
+    try:
+        takes(parts, LIMITS)
+    except CaesuraError as refused:
+        _told(refused)
+
+
+def _frames(parts: dict[str, bytes], asked: Parameters) -> bool:
+    try:
+        animation = read_animation(parts, asked, LIMITS, lambda size: memoryview(bytearray(size)))
+        block = min(max(MOST_DRAWN // (3 * animation.vertex_count), 1), 3)
+        for first in {0, animation.frames // 2, max(animation.frames - block, 0)}:
+            animation.vertices(first, min(first + block, animation.frames))
+    except CaesuraError as refused:
+        _told(refused)
+        return False
+    return True
+
+
+def _told(refused: CaesuraError) -> None:
+    """A refusal must have a code and a sentence that can be sent."""
+    problem = refused.problem()
+    if not problem["code"] or not problem["detail"].encode():
+        raise AssertionError(problem)
