@@ -18,6 +18,7 @@ from worker import ids
 from worker.async_records import AsyncRecords
 from worker.blobs import Blobs
 from worker.jobs import Jobs
+from worker.leftovers import clear
 from worker.records import connect
 from worker.schema import AnimationRecord, SegmentationRecord
 
@@ -96,7 +97,9 @@ async def opened(settings: ServiceSettings) -> AsyncIterator[Backend]:
     jobs = Jobs(client, settings.attempts, settings.job_seconds)
     try:
         blobs = Blobs.open(settings.store_location, settings.scratch_dir)
-        yield Backend(settings, records, jobs, blobs, KeyFile(settings.keys_file))
+        backend = Backend(settings, records, jobs, blobs, KeyFile(settings.keys_file))
+        await to_thread.run_sync(clear, backend.spool)  # of a process that was killed; what another one writes is held
+        yield backend
     finally:
         await records.close()
         client.close()

@@ -2,9 +2,10 @@
 
 import hashlib
 import os
-import secrets
 from dataclasses import dataclass
 from pathlib import Path
+
+from worker.leftovers import held_file, path_of, write_all
 
 
 @dataclass(frozen=True)
@@ -18,31 +19,27 @@ class Part:
 
 
 class SpoolFile:
-    """One file being received. Blocking calls: run them on a thread."""
+    """One file being received, held until it is discarded. Blocking calls: run them on a thread."""
 
     def __init__(self, folder: Path, name: str) -> None:
-        folder.mkdir(parents=True, exist_ok=True)
         self.name = name
-        self.path = folder / f"{secrets.token_hex(16)}.part"
-        self._file = self.path.open("xb", buffering=0)
+        self._file = held_file(folder)
+        self.path = path_of(self._file)
         self._digest = hashlib.sha256()
         self._bytes = 0
 
     def write(self, data: bytes | memoryview) -> None:
-        """Append `data`, however many calls of the system that takes."""
+        """Append `data`."""
         self._digest.update(data)
         self._bytes += len(data)
-        rest = memoryview(data)
-        while rest:
-            rest = rest[self._file.write(rest) :]
+        write_all(self._file, data)
 
     def finish(self) -> Part:
         """The file, safe on disk."""
         os.fsync(self._file.fileno())
-        self._file.close()
         return Part(self.name, self.path, self._bytes, self._digest.hexdigest())
 
     def discard(self) -> None:
-        """As if it had never come."""
-        self._file.close()
+        """As if it had never come; what was moved to its place before stays there."""
         self.path.unlink(missing_ok=True)
+        self._file.close()

@@ -17,6 +17,7 @@ from redis.exceptions import RedisError
 
 from worker.horses import CaesuraWorker, alive_here
 from worker.jobs import QUEUES, Jobs
+from worker.leftovers import clear
 from worker.pool import Pool
 from worker.records import connect
 from worker.settings import WorkerSettings
@@ -51,6 +52,7 @@ def run(settings: WorkerSettings, groups: list[list[str]]) -> None:
     def tend() -> None:
         jobs.reconcile()
         jobs.sweep_sometimes()
+        clear(settings.scratch_dir)
 
     Pool(groups, lambda queues: _work(queues, settings), tend, settings.stop_seconds).run()
 

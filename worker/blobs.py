@@ -7,7 +7,6 @@ whole or not there: written aside, then moved to its name.
 import errno
 import os
 import secrets
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -16,6 +15,8 @@ from typing import Literal, Self
 import obstore
 from obstore.exceptions import NotFoundError
 from obstore.store import LocalStore, ObjectStore, from_url
+
+from worker.leftovers import aside, path_of, write_all
 
 Kind = Literal["uploads", "analyses", "viewer", "exports"]
 
@@ -55,14 +56,19 @@ class Blobs:
         key = _new_key(kind)
         if self._folder is None or not _moved(path, self._folder / key):
             obstore.put(self._store, key, path)
-            path.unlink()
+            path.unlink(missing_ok=True)
         return key
 
     def put(self, content: bytes | memoryview | Iterator[bytes], kind: Kind) -> str:
         """Keep some bytes, at once or piece by piece as they are made."""
-        key = _new_key(kind)
-        obstore.put(self._store, key, content)
-        return key
+        if self._folder is None:
+            key = _new_key(kind)
+            obstore.put(self._store, key, content)
+            return key
+        with aside(self._scratch) as file:
+            for piece in [content] if isinstance(content, bytes | memoryview) else content:
+                write_all(file, piece)
+            return self.adopt(path_of(file), kind)
 
     def read(self, key: str) -> bytes:
         """All bytes of a blob that is known to be small."""
@@ -89,16 +95,20 @@ class Blobs:
         if self._folder is not None:
             yield self._existing(key)
             return
-        with tempfile.NamedTemporaryFile(dir=self._scratch) as copy:
+        with aside(self._scratch) as copy:
             for piece in self.stream(key):
-                copy.write(piece)
-            copy.flush()
-            yield Path(copy.name)
+                write_all(copy, piece)
+            yield path_of(copy)
 
     def delete(self, key: str) -> None:
         """Delete it; nothing happens where it is not there."""
         with suppress(BlobMissing), _missing(key):
             obstore.delete(self._store, key)
+
+    def all(self) -> Iterator[tuple[str, int]]:
+        """Every blob, with its size in bytes; what is being written is not among them."""
+        for page in obstore.list(self._store):
+            yield from ((str(blob["path"]), int(blob["size"])) for blob in page)
 
     def _existing(self, key: str) -> Path:
         path = (self._folder or Path()) / key

@@ -21,6 +21,8 @@
 | caesura:export:ID:FORM | string | ExportRecord, JSON; the form is a name and its options |
 | caesura:exports:ID | set | the forms that were ever asked for |
 | caesura:swept | string, expires | somebody looked lately for what is kept too long |
+| caesura:doubted | hash | keys of blobs that no record pointed to when it was looked last, each with since when |
+| caesura:store | hash | kinds of blobs, each with the bytes they took when it was looked last |
 | caesura:keys | hash | names of API keys, each with its digest |
 | caesura:key:DIGEST | string | KeyRecord, JSON |
 | caesura:session:DIGEST | string, expires | the digest of the key that was signed in with |
@@ -33,6 +35,8 @@ from typing import Literal
 LIVE_KEY = "caesura:live"
 USED_KEY = "caesura:used"
 SWEPT_KEY = "caesura:swept"
+DOUBTED_KEY = "caesura:doubted"
+STORE_KEY = "caesura:store"
 API_KEYS_KEY = "caesura:keys"
 
 
