@@ -9,7 +9,7 @@ LOCKED := pip install --quiet --disable-pip-version-check
 RESOLVE := uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --quiet
 COMPILE := $(RESOLVE) pyproject.toml
 
-.PHONY: help setup demo test lint bench lock clean
+.PHONY: help setup demo test lint bench fuzz lock clean
 
 help:
 	@echo "make demo    set up, start the service, segment two sample figures, show them in the page"
@@ -17,6 +17,7 @@ help:
 	@echo "make setup   the environment alone: .venv with the command caesura, and the page's libraries"
 	@echo "make lint    format, rules, types and layers"
 	@echo "make bench   measure accuracy, and write docs/accuracy.md"
+	@echo "make fuzz    try files made of files for FUZZ_SECONDS (300)"
 	@echo "make lock    resolve the dependencies anew (needs uv)"
 	@echo "make clean   take away all that make made"
 
@@ -48,12 +49,17 @@ lint: setup
 bench: setup
 	$(BIN)/python -m benchmarks.accuracy
 
+fuzz: setup
+	@$(BIN)/python -m $(LOCKED) --require-hashes --only-binary :all: -r requirements.fuzz.lock
+	@$(BIN)/python -m tests.fuzz
+
 lock:
 	@command -v uv > /dev/null || { echo "make lock needs uv on the PATH"; exit 1; }
 	$(COMPILE) --upgrade --group assets --group test --group build -o requirements.lock
 	$(COMPILE) --upgrade --constraints requirements.lock -o requirements.runtime.lock
 	$(RESOLVE) --upgrade --group audit -o requirements.audit.lock
+	$(RESOLVE) --upgrade --group fuzz -o requirements.fuzz.lock
 
 clean:
-	rm -rf .venv node_modules service/static/vendor dist build .mypy_cache .ruff_cache .pytest_cache .import_linter_cache .hypothesis
+	rm -rf .venv node_modules service/static/vendor dist build .mypy_cache .ruff_cache .pytest_cache .import_linter_cache .hypothesis .fuzz
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
