@@ -13,6 +13,7 @@ from typing import Any
 from fastapi import FastAPI, Request, Response
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
+from obstore.exceptions import BaseError as StoreError
 from redis import exceptions as redis
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
@@ -51,6 +52,7 @@ STATUS: dict[str, int] = {
     "range-not-satisfiable": 416,
     "too-many-requests": 429,
     "queue-unavailable": 503,
+    "storage-unavailable": 503,
     "not-ready": 503,
     "queue-full": 503,
     "storage-full": 507,
@@ -100,6 +102,7 @@ def install(app: FastAPI) -> None:
     app.exception_handler(ClientDisconnect)(_gone_away)
     for unreachable in (redis.ConnectionError, redis.TimeoutError, redis.BusyLoadingError):
         app.exception_handler(unreachable)(_unavailable)
+    app.exception_handler(StoreError)(_store_unavailable)
     app.exception_handler(BlobMissing)(_no_longer_kept)
     app.exception_handler(OSError)(_storage)
     app.exception_handler(Exception)(_bug)
@@ -165,6 +168,13 @@ def unavailable(error: Exception) -> Response:
     log.error("Redis does not answer: %s", error)
     detail = "The queue cannot be reached just now. Nothing was lost; try again shortly."
     return problem_response({"kind": "infrastructure", "code": "queue-unavailable", "detail": detail})
+
+
+async def _store_unavailable(_: Request, error: Exception) -> Response:
+    """The object store does not answer; its library has tried for some seconds."""
+    log.error("The object store does not answer: %s", str(error).partition("\n")[0])
+    detail = "The store of files cannot be reached just now. Nothing is wrong with the request; try again shortly."
+    return problem_response({"kind": "infrastructure", "code": "storage-unavailable", "detail": detail})
 
 
 async def _bug(_: Request, __: Exception) -> Response:

@@ -9,8 +9,10 @@ import os
 import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from datetime import timedelta
+from itertools import chain
 from pathlib import Path
-from typing import Literal, Self
+from typing import TYPE_CHECKING, Literal, Self
 
 import obstore
 from obstore.exceptions import NotFoundError
@@ -18,9 +20,16 @@ from obstore.store import LocalStore, ObjectStore, from_url
 
 from worker.leftovers import aside, path_of, write_all
 
+if TYPE_CHECKING:  # a type alone: it is not there at run time
+    from obstore.store import RetryConfig
+
 Kind = Literal["uploads", "analyses", "viewer", "exports"]
 
 CHUNK_BYTES = 1 << 20
+PIECE_BYTES = 8 << 20
+"""Asked of a remote store at once: it must arrive within one request's time (AWS_TIMEOUT, else 30 s)."""
+RETRIES: "RetryConfig" = {"max_retries": 5, "retry_timeout": timedelta(seconds=20)}
+"""A store that is away for longer is told to whoever asks, who can wait better than a thread here."""
 
 
 class BlobMissing(LookupError):
@@ -44,7 +53,7 @@ class Blobs:
         """
         scratch.mkdir(parents=True, exist_ok=True)
         if "://" in location:
-            return cls(from_url(location), None, scratch)
+            return cls(from_url(location, retry_config=RETRIES), None, scratch)
         folder = Path(location).absolute()
         return cls(LocalStore(folder, mkdir=True), folder, scratch)
 
@@ -81,13 +90,24 @@ class Blobs:
             return int(obstore.head(self._store, key)["size"])
 
     def stream(self, key: str, start: int = 0, end: int | None = None) -> Iterator[bytes]:
-        """Bytes [start, end) in pieces of about 1 MB; a missing blob raises at this call, not at the first piece."""
+        """Bytes [start, end) in pieces of some MB; a missing blob raises at this call, not at the first piece."""
         end = self.size(key) if end is None else end
         if end <= start:
             return iter(())
+        if self._folder is None:
+            return self._pieces(key, start, end)
         with _missing(key):
             answer = obstore.get(self._store, key, options={"range": (start, end)})
         return map(bytes, answer.stream(min_chunk_size=CHUNK_BYTES))
+
+    def _pieces(self, key: str, start: int, end: int) -> Iterator[bytes]:
+        """A request for each piece: one for all of it would run out of time where the reader is slow."""
+
+        def piece(first: int) -> bytes:
+            with _missing(key):
+                return bytes(obstore.get_range(self._store, key, start=first, end=min(first + PIECE_BYTES, end)))
+
+        return chain([piece(start)], map(piece, range(start + PIECE_BYTES, end, PIECE_BYTES)))
 
     @contextmanager
     def path(self, key: str) -> Iterator[Path]:

@@ -1,8 +1,11 @@
 """Files by key: moved in where they can be, read by range, mapped from where they are."""
 
+import time
+
 import pytest
 
-from worker.blobs import BlobMissing, Blobs
+from tests.object_store import BUCKET, ObjectStore
+from worker.blobs import PIECE_BYTES, BlobMissing, Blobs
 from worker.mapping import mapped_parts, scratch_space
 from worker.schema import Part
 
@@ -89,3 +92,68 @@ def test_scratch_is_a_file_without_a_name(tmp_path):
     assert (len(buffer), bytes(buffer[:6]), granted) == (5000, b"motion", [5000])
     assert list(tmp_path.iterdir()) == []
     assert len(scratch(0)) == 0
+
+
+@pytest.fixture(scope="module")
+def bucket():
+    """A real object store."""
+    store = ObjectStore.start()
+    yield store
+    store.stop()
+
+
+@pytest.fixture
+def remote(bucket, tmp_path, monkeypatch):
+    """The blobs below a prefix of its bucket."""
+    for name, value in bucket.environment.items():
+        monkeypatch.setenv(name, value)
+    return Blobs.open(f"s3://{BUCKET}/some/prefix", tmp_path / "scratch")
+
+
+def test_a_bucket_keeps_what_a_folder_keeps(remote, bucket, tmp_path):
+    """Moved in, made piece by piece, read whole and by range, lent, listed by the keys that were given, deleted."""
+    large = bytes(range(256)) * 30_000
+    received = tmp_path / "received"
+    received.write_bytes(large)
+    adopted = remote.adopt(received)
+    made = remote.put(iter([large, b"more"]), "exports")
+    assert not received.exists()
+    assert remote.read(made) == large + b"more"
+    assert b"".join(remote.stream(adopted, 300, 6_000_000)) == large[300:6_000_000]
+    with remote.path(adopted) as path:
+        assert path.read_bytes() == large
+    assert not list((tmp_path / "scratch").iterdir())
+    assert sorted(remote.all()) == sorted([(adopted, len(large)), (made, len(large) + 4)])
+    assert sorted(bucket.keys()) == sorted(f"some/prefix/{key}" for key in (adopted, made))
+    for key in (adopted, made, adopted):
+        remote.delete(key)
+    for ask in (remote.read, remote.size, remote.stream, lambda key: remote.path(key).__enter__()):
+        with pytest.raises(BlobMissing):
+            ask(adopted)
+
+
+def test_a_bucket_has_no_half_blob_either(remote, bucket):
+    """What is cut short in the middle of its parts leaves neither an object nor parts that are paid for."""
+
+    def interrupted():
+        yield bytes(6_000_000)
+        raise InterruptedError
+
+    with pytest.raises(InterruptedError):
+        remote.put(interrupted(), "viewer")
+    assert (bucket.keys(), bucket.half_written()) == ([], [])
+
+
+def test_a_slow_reader_gets_all_of_a_large_blob(bucket, tmp_path, monkeypatch):
+    """A download may take longer than one request to the store: a person's line is slower than the store's."""
+    for name, value in (bucket.environment | {"AWS_TIMEOUT": "1s"}).items():
+        monkeypatch.setenv(name, value)
+    remote = Blobs.open(f"s3://{BUCKET}", tmp_path / "scratch")
+    content = bytes(range(256)) * (5 * PIECE_BYTES // 512)
+    key = remote.put(content, "exports")
+    read = b""
+    for piece in remote.stream(key):
+        time.sleep(0.5)
+        read += piece
+    assert read == content
+    remote.delete(key)
