@@ -18,13 +18,17 @@ _FORM: dict[str, Any] = {
 FILE_BODY: dict[str, Any] = {
     "requestBody": {
         "required": True,
-        "description": "A .glb, .gltf or .npz, judged by its first bytes and never by its type, or a form of files.",
+        "description": "A .glb, .gltf, .bvh, .npz or .zip, judged by its first bytes, or a form of files.",
         "content": {"application/octet-stream": {"schema": _BYTES}, "multipart/form-data": {"schema": _FORM}},
     }
 }
 
+FILE_TYPES = (
+    "application/octet-stream", "model/gltf-binary", "model/gltf+json", "application/x-npz", "application/zip"
+)  # fmt: skip
+
 FILE: dict[int | str, dict[str, Any]] = {
-    200: {"description": "The bytes.", "content": {"application/octet-stream": {"schema": _BYTES}}},
+    200: {"description": "The bytes.", "content": {kind: {"schema": _BYTES} for kind in FILE_TYPES}},
     206: {"description": "The range of them that was asked for."},
     304: {"description": "They are those that the client has."},
 }
@@ -68,10 +72,38 @@ KEY_POSES: dict[int | str, dict[str, Any]] = {
     **_LATER,
 }
 
+_EVENT: dict[str, Any] = {
+    "type": "object",
+    "properties": {name: {"type": "string"} for name in ("event", "id", "data")},
+    "description": "one event; its data is a status document as text",
+}
+
+REVISED: dict[int | str, dict[str, Any]] = {
+    201: {"description": "Kept. Location says where, ETag what the next revision's If-Match must be."},
+}
+
+REVISION_BODY: dict[str, Any] = {
+    "parameters": [
+        {
+            "name": "If-Match",
+            "in": "header",
+            "required": True,
+            "schema": {"type": "string"},
+            "description": 'the ETag of the revision that was edited, which must be the newest; `"0"` without any',
+            "example": '"0"',
+        }
+    ],
+    "requestBody": {
+        "required": True,
+        "description": "Segments that tile the take, motions by any numbers, one name for each motion.",
+        "content": {"application/json": {"schema": {"$ref": "#/components/schemas/RevisionOrder"}}},
+    },
+}
+
 EVENTS: dict[int | str, dict[str, Any]] = {
     200: {
         "description": "`status` events, each a status document.",
-        "content": {"text/event-stream": {"schema": {"type": "string"}, "example": 'event: status\ndata: {"id": …}\n'}},
+        "content": {"text/event-stream": {"schema": _EVENT, "example": 'event: status\ndata: {"id": …}\n'}},
     },
     204: {"description": "It is over, and the client knows (Last-Event-ID)."},
 }

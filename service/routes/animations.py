@@ -17,7 +17,12 @@ from service.ranges import Stored, stored_response
 from service.uploads import received
 from worker.forgetting import forget_animation
 
-MEDIA_TYPES = {"glb": "model/gltf-binary", "gltf": "model/gltf+json", "npz": "application/x-npz"}
+MEDIA_TYPES = {
+    "glb": "model/gltf-binary",
+    "gltf": "model/gltf+json",
+    "npz": "application/x-npz",
+    "zip": "application/zip",
+}
 
 router = APIRouter(prefix="/v1/animations", tags=["animations"])
 
