@@ -40,8 +40,9 @@ class Segment(_Value):
     """Frames [start, end) of one motion. Segments tile [0, frames) exactly.
 
     `end_seconds` is the time of the next segment's first frame, at most the duration. `confidence`, 0 to 1, is
-    how sure the cut at `end` is; the last segment ends with the take and has 1. `repeats` tile the segment: one
-    interval for each time the motion is performed, and the whole segment where nothing repeats.
+    how sure the cut at `end` is; the last segment ends with the take and has 1; null where a person put the cut.
+    `repeats` tile the segment: one interval for each time the motion is performed, and the whole segment where
+    nothing repeats. `loop` and `discard` are a person's word to who makes clips: this one goes round, that one is none.
     """
 
     start: int
@@ -51,7 +52,9 @@ class Segment(_Value):
     motion: int = Field(description="0-based, in order of first appearance")
     name: str
     repeats: tuple[Interval, ...] = ()
-    confidence: float = Field(1.0, ge=0, le=1)
+    confidence: float | None = Field(1.0, ge=0, le=1)
+    loop: bool = False
+    discard: bool = False
 
 
 class KeyFrame(_Value):
@@ -74,6 +77,7 @@ class SegmentationDocument(_Value):
     """The whole result."""
 
     id: str | None = None
+    revision: int = Field(0, ge=0, description="0: as computed; else the number of the revision by a person")
     algorithm: str
     method: str
     parameters: dict[str, Any]

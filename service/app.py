@@ -11,7 +11,7 @@ from service import errors, openapi
 from service.backend import opened
 from service.guard import Guard
 from service.queries import only_known
-from service.routes import about, animations, clips, health, pages, results, segmentations, session
+from service.routes import about, animations, clips, health, pages, results, revisions, segmentations, session
 from service.security import SecurityHeaders
 from service.settings import ServiceSettings
 
@@ -37,7 +37,7 @@ def create_app(settings: ServiceSettings) -> FastAPI:
         generate_unique_id_function=openapi.operation_name,
     )
     errors.install(app)
-    for routes in (animations, segmentations, results, clips, session, about, health):
+    for routes in (animations, segmentations, results, revisions, clips, session, about, health):
         app.include_router(routes.router, dependencies=[Depends(only_known)])
     app.include_router(pages.router)
     pages.mount(app)

@@ -5,7 +5,7 @@ from typing import Any, Literal, Self
 from pydantic import BaseModel, ConfigDict, Field
 
 from core.document import Segment
-from worker.schema import AnimationRecord, SegmentationRecord, Status, TakeSummary
+from worker.schema import AnimationRecord, RevisionRecord, SegmentationRecord, Status, TakeSummary
 
 
 class _Answer(BaseModel):
@@ -69,6 +69,7 @@ class StatusDocument(_Answer):
     motions: int | None
     frames: int | None
     segments: tuple[Segment, ...] | None
+    revision: int = Field(0, description="the newest revision; 0 while nobody has edited the result")
     links: dict[str, str]
 
     @classmethod
@@ -86,6 +87,7 @@ class StatusDocument(_Answer):
             motions=record.motions if done else None,
             frames=record.frames if done else None,
             segments=record.segments if done else None,
+            revision=record.revision,
             links=_links(record.id),
         )
 
@@ -99,8 +101,37 @@ class SegmentationPage(_Answer):
 
 def _links(identifier: str) -> dict[str, str]:
     here = f"/v1/segmentations/{identifier}"
-    named = {name: f"{here}/{name}" for name in ("events", "result", "clips", "keyframes", "viewer")}
+    named = {name: f"{here}/{name}" for name in ("events", "result", "revisions", "clips", "keyframes", "viewer")}
     return {"self": here, **named, "page": f"/view/{identifier}"}
+
+
+class RevisionEntry(_Answer):
+    """One revision of a result, but for its segments; revision 0 is the result as computed."""
+
+    revision: int
+    created: float = Field(description="seconds since 1970")
+    note: str
+    links: dict[str, str]
+
+    @classmethod
+    def of(cls, identifier: str, record: RevisionRecord, **more: Any) -> Self:
+        """The answer for a record."""
+        here, query = f"/v1/segmentations/{identifier}", f"?revision={record.number}"
+        links = {name: f"{here}/{name}{query}" for name in ("result", "clips", "keyframes")}
+        links = {"self": f"{here}/revisions/{record.number}", **links}
+        return cls(revision=record.number, created=record.created, note=record.note, links=links, **more)
+
+
+class RevisionDocument(RevisionEntry):
+    """One revision of a result, whole."""
+
+    segments: tuple[Segment, ...]
+
+
+class RevisionList(_Answer):
+    """Every revision of a result, the computed one first."""
+
+    revisions: tuple[RevisionEntry, ...]
 
 
 class ViewerDocument(_Answer):

@@ -64,6 +64,7 @@ EXAMPLES: dict[str, dict[str, Any]] = {
         "motions": 2,
         "frames": 4,
         "segments": _SEGMENTS,
+        "revision": 1,
         "links": {"self": _SEGMENTATION, "result": f"{_SEGMENTATION}/result"},
     },
     "SegmentationDocument": {
@@ -79,6 +80,23 @@ EXAMPLES: dict[str, dict[str, Any]] = {
         "segments": _SEGMENTS,
         "key_frames": [{"frame": 1, "seconds": 0.033333, "energy": 1.25, "motion": 0}],
         "energy": [None, 1.25, 1.1, None],
+    },
+    "RevisionOrder": {
+        "segments": [
+            {"start": 0, "end": 3, "motion": 0, "name": "walk", "loop": True},
+            {"start": 3, "end": 4, "motion": 1, "discard": True},
+        ],
+        "note": "the turn still belongs to the walk",
+    },
+    "RevisionDocument": {
+        "revision": 1,
+        "created": 1790000500.0,
+        "note": "the turn still belongs to the walk",
+        "links": {"self": f"{_SEGMENTATION}/revisions/1", "result": f"{_SEGMENTATION}/result?revision=1"},
+        "segments": [
+            {**_SEGMENTS[0], "end": 3, "end_seconds": 0.1, "name": "walk", "confidence": None, "loop": True},
+            {**_SEGMENTS[1], "start": 3, "start_seconds": 0.1, "name": "A", "discard": True},
+        ],
     },
     "Problem": PROBLEM,
 }

@@ -10,6 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from core.document import SegmentationDocument
 from service.errors import MEDIA_TYPE
 from service.examples import EXAMPLES, PROBLEM
+from service.revisions import RevisionOrder
 
 DESCRIPTION = """Finds the motions in a 3D animation: a long take goes in; motions, key-frames and cuts come out.
 
@@ -52,7 +53,7 @@ def _document(app: FastAPI) -> dict[str, Any]:
     document = get_openapi(title=app.title, version=app.version, description=DESCRIPTION, routes=app.routes)
     schemas = document["components"]["schemas"]
     template = "#/components/schemas/{model}"
-    for model in (Problem, SegmentationDocument):
+    for model in (Problem, SegmentationDocument, RevisionOrder):
         schema = model.model_json_schema(ref_template=template)
         schemas.update(schema.pop("$defs", {}))
         schemas[model.__name__] = schema

@@ -1,6 +1,5 @@
 """What a submission asks for: which animation, called what, cut how."""
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Self
@@ -8,7 +7,7 @@ from typing import Any, Self
 from fastapi import Request
 
 from core.errors import ParameterError
-from service.errors import Refusal
+from service.json_body import json_object
 
 MAX_JSON_BYTES = 64 * 1024
 
@@ -39,22 +38,11 @@ def query_order(query: Mapping[str, str]) -> Order:
 
 async def json_order(request: Request) -> Order:
     """From a JSON body, with the same names. Raises `Refusal` for what is no JSON object, or a very long one."""
-    text = bytearray()
-    async for chunk in request.stream():
-        text += chunk
-        if len(text) > MAX_JSON_BYTES:
-            detail = f"The JSON is longer than {MAX_JSON_BYTES} bytes. Send a file as the body, without a JSON type."
-            raise Refusal("json-too-long", detail, limit=MAX_JSON_BYTES, actual=len(text))
+    advice = "Send a file as the body, without a JSON type."
+    given = await json_object(request, MAX_JSON_BYTES, advice, '{"animation": "…", "motions": 5}')
     if request.query_params:
         detail = "Parameters of a JSON call belong into the JSON, not into the query."
         raise ParameterError("misplaced-parameter", detail, parameter=next(iter(request.query_params)))
-    try:
-        given = json.loads(bytes(text))
-        json.dumps(given, ensure_ascii=False).encode()  # half a surrogate pair is no text: no key and no answer
-    except (ValueError, RecursionError):
-        raise Refusal("malformed-json", "The body is no JSON, though its Content-Type says so.") from None
-    if not isinstance(given, dict):
-        raise Refusal("malformed-json", 'The JSON must be an object, such as {"animation": "…", "motions": 5}.')
     if not given.get("animation"):
         detail = 'The JSON must name an animation: {"animation": "…"}. Upload the file first, or send it as the body.'
         raise ParameterError("missing-parameter", detail, parameter="animation", pointer="/animation")

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from contextlib import aclosing
+from dataclasses import dataclass
 
 from anyio import to_thread
 from fastapi import Request, Response
@@ -15,6 +16,7 @@ from service.errors import Refusal, problem_response
 from service.forms import Form
 from service.preferences import wait_seconds
 from service.ranges import Stored, caching, not_modified, stored_response
+from service.revisions import document_of, number_of
 from worker.schema import ExportRecord, SegmentationRecord
 
 EXPORT_WAIT_SECONDS = 5
@@ -27,15 +29,25 @@ WRITERS: dict[tuple[str, str], Writer] = {
 }
 
 
-async def result(backend: Backend, request: Request, record: SegmentationRecord, form: Form, table: str) -> Response:
+@dataclass(frozen=True)
+class Wanted:
+    """What of a result is asked for: its form, the table of that form, and the revision."""
+
+    form: Form
+    table: str = "segments"
+    revision: str = "0"
+
+
+async def result(backend: Backend, request: Request, record: SegmentationRecord, wanted: Wanted) -> Response:
     """The result, once there is one; 409 while it is made, its own problem where there will be none."""
     record = await backend.awaited(record, wait_seconds(request))
     refused = unfinished(request, record)
     if refused is not None:
         return refused
-    if form.suffix == "npz":
-        return await _made(backend, request, record, form)
-    return await _text(backend, request, record, form, table)
+    number = number_of(record, wanted.revision)
+    if wanted.form.suffix == "npz":
+        return await _made(backend, request, record, wanted.form, number)
+    return await _text(backend, request, record, wanted, number)
 
 
 def unfinished(request: Request, record: SegmentationRecord) -> Response | None:
@@ -47,31 +59,40 @@ def unfinished(request: Request, record: SegmentationRecord) -> Response | None:
     return None if record.status == "done" else problem_response(problem_of(record), applied)
 
 
-async def _text(backend: Backend, request: Request, record: SegmentationRecord, form: Form, table: str) -> Response:
+async def _text(
+    backend: Backend, request: Request, record: SegmentationRecord, wanted: Wanted, number: int
+) -> Response:
     """Written here, from the stored document."""
+    form, table = wanted.form, wanted.table
     write = WRITERS.get((form.suffix, table))
     if write is None and (form.suffix, table) != ("json", "segments"):
         raise Refusal("no-such-table", f"{form.suffix} has no table {table!r}; table=frames goes with csv.")
-    headers = {**caching(f"W/{_tag(record, form.suffix, table)}"), "Vary": "Accept", **preference_applied(request)}
+    tag = f"W/{_tag(record, form.suffix, table, str(number))}"
+    headers = {**caching(tag), "Vary": "Accept", **preference_applied(request)}
     if not_modified(request, headers["ETag"]):
         return Response(status_code=304, headers=headers)
-    stored = await backend.records.document(record.id)
-    if stored is None:
-        raise Refusal("not-found", f"There is no segmentation {record.id}. It may have been deleted.")
-    content = stored if write is None else await to_thread.run_sync(_written, write, stored)
+    content = await _content(backend, record, write, number)
     if form.suffix != "json":
         headers["Content-Disposition"] = f'inline; filename="{record.id}.{form.suffix}"'
     return Response(content, headers=headers, media_type=form.media_type)
 
 
-def _written(write: Writer, stored: bytes) -> str:
-    return write(SegmentationDocument.model_validate_json(stored))
+async def _content(backend: Backend, record: SegmentationRecord, write: Writer | None, number: int) -> str | bytes:
+    """The text; the computed document goes out as it is stored, unread."""
+    if write is None and not number:
+        stored = await backend.records.document(record.id)
+        if stored is None:
+            raise Refusal("not-found", f"There is no segmentation {record.id}. It may have been deleted.")
+        return stored
+    document = await document_of(backend, record, number)
+    return await to_thread.run_sync(write or SegmentationDocument.model_dump_json, document)
 
 
-async def _made(backend: Backend, request: Request, record: SegmentationRecord, form: Form) -> Response:
+async def _made(backend: Backend, request: Request, record: SegmentationRecord, form: Form, number: int) -> Response:
     """Made of arrays by a job at the first request, then served as stored."""
-    name, here = f"{record.id}.{form.suffix}", f"/v1/segmentations/{record.id}/result.{form.suffix}"
-    return await made_file(backend, request, record, form.suffix, here, name, form.media_type)
+    query = f"?revision={number}" if number else ""
+    name, here = f"{record.id}.{form.suffix}", f"/v1/segmentations/{record.id}/result.{form.suffix}{query}"
+    return await made_file(backend, request, record, form.suffix + query, here, name, form.media_type)
 
 
 async def made_file(
@@ -113,5 +134,5 @@ async def _export(backend: Backend, identifier: str, form: str, seconds: float) 
 
 
 def _tag(record: SegmentationRecord, *variant: str) -> str:
-    """Of exactly this form of exactly this computation: a record that is done changes only by being computed anew."""
-    return f'"{"-".join((record.id, f"{record.updated:.6f}", *variant))}"'
+    """Of exactly this form of exactly this computation: a record that is done is computed anew only as a new one."""
+    return f'"{"-".join((record.id, f"{record.created:.6f}", *variant))}"'

@@ -1,12 +1,14 @@
 """Files made of a result that need arrays: the web process has none, so a `cut` job makes them.
 
-A form is a name, and after a question mark the options that are not the default ones: `clips?origin=keep`.
+A form is a name, and after a question mark the revision and the options that are not the default ones:
+`clips?revision=3&origin=keep`.
 """
 
 import io
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from urllib.parse import parse_qsl
 
 import numpy as np
 
@@ -14,12 +16,14 @@ from core.document import SegmentationDocument
 from core.errors import CaesuraError
 from core.formats.clips.options import ClipOptions
 from core.formats.clips.write import Parts, Scratch, Written, write_clips, write_key_poses
+from core.revision import revised
 from worker.allowance import Allowance
 from worker.attempt import INTERNAL_ERROR
 from worker.blobs import BlobMissing, Blobs
 from worker.jobs import EXPORT_SECONDS
 from worker.mapping import mapped_parts, scratch_space
 from worker.records import Records
+from worker.revisions import edits_of
 from worker.schema import ExportRecord, SegmentationRecord
 from worker.settings import WorkerSettings
 
@@ -28,6 +32,9 @@ GONE = {
     "code": "gone",
     "detail": "The upload is no longer kept here: its time has run out. Upload it again.",
 }
+
+
+Options = dict[str, str]
 
 
 @dataclass(frozen=True)
@@ -40,23 +47,23 @@ class Export:
     record: SegmentationRecord
     document: SegmentationDocument
     energy: bytes
-    labels: bytes
 
     def keep(self, content: bytes | Iterator[bytes], media_type: str) -> ExportRecord:
         """Where the file is, from now on."""
         return ExportRecord(key=self.blobs.put(content, "exports"), media_type=media_type)
 
 
-def npz(export: Export, _: str) -> ExportRecord:
+def npz(export: Export, _: Options) -> ExportRecord:
     """`energy` (frames,) float32, `labels` (frames,) uint16, `key_frames` (keys,), `segments` (segments, 3) of
 
     start, end, motion; `frame_rate`; and the whole document as JSON in `document`.
     """
     out, document = io.BytesIO(), export.document
+    lengths = [s.end - s.start for s in document.segments]
     np.savez_compressed(
         out,
         energy=np.frombuffer(export.energy, "<f4"),
-        labels=np.frombuffer(export.labels, "<u2"),
+        labels=np.repeat(np.array([s.motion for s in document.segments], "<u2"), lengths),
         key_frames=np.array([key.frame for key in document.key_frames], np.int64),
         segments=np.array([[s.start, s.end, s.motion] for s in document.segments], np.int64),
         frame_rate=np.float64(document.frame_rate),
@@ -65,13 +72,13 @@ def npz(export: Export, _: str) -> ExportRecord:
     return export.keep(out.getvalue(), "application/octet-stream")
 
 
-def clips(export: Export, options: str) -> ExportRecord:
+def clips(export: Export, options: Options) -> ExportRecord:
     """The upload with its take in clips."""
-    chosen = ClipOptions.parse(options)
+    chosen = ClipOptions.of(options)
     return _of_upload(export, lambda parts, scratch: write_clips(parts, export.document, chosen, scratch))
 
 
-def keyframes(export: Export, _: str) -> ExportRecord:
+def keyframes(export: Export, _: Options) -> ExportRecord:
     """The upload with its take reduced to key poses."""
     return _of_upload(export, lambda parts, scratch: write_key_poses(parts, export.document, scratch))
 
@@ -87,19 +94,24 @@ def _of_upload(export: Export, write: Callable[[Parts, Scratch], Written]) -> Ex
         return export.keep(written.pieces, written.media_type)
 
 
-Writer = Callable[[Export, str], ExportRecord]
+Writer = Callable[[Export, Options], ExportRecord]
 WRITERS: dict[str, Writer] = {"npz": npz, "clips": clips, "keyframes": keyframes}
 
 
 def run(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: str, form: str) -> None:
     """Write one form of one result, and say where it is; a failure is said too, and raised where it is ours."""
+    name, _, query = form.partition("?")
+    options = dict(parse_qsl(query))
     record = records.segmentation(identifier)
-    document, energy, labels = records.result(identifier)
-    if record is None or document is None or energy is None or labels is None:
+    document, energy, _ = records.result(identifier)
+    revision = int(options.pop("revision", "0"))
+    edits = edits_of(records, identifier, revision) if revision else ()
+    if record is None or document is None or energy is None or edits is None:
         return  # deleted meanwhile
     result = SegmentationDocument.model_validate_json(document)
-    export = Export(records, blobs, settings, record, result, energy, labels)
-    name, _, options = form.partition("?")
+    if revision:
+        result = revised(result, revision, edits)
+    export = Export(records, blobs, settings, record, result, energy)
     try:
         made = WRITERS[name](export, options)
     except CaesuraError as refused:

@@ -201,7 +201,7 @@ class Records:
         """Forget a segmentation and its result; cancel it before."""
         with self.redis.pipeline() as pipe:
             parts = [keys.segmentation_key(record.id, part) for part in ("", "document", "energy", "labels")]
-            pipe.delete(*parts)
+            pipe.delete(*parts, keys.revisions_key(record.id), keys.revised_key(record.id))
             pipe.delete(keys.alternatives_key(record.id))
             pipe.zrem(keys.segmentations_key(record.animation), record.id)
             pipe.srem(keys.LIVE_KEY, record.id)

@@ -83,12 +83,21 @@ class ExportRecord(_Record):
     problem: dict[str, Any] | None = None
 
 
+class RevisionRecord(_Record):
+    """A revision of a result, but for its segments, which may be many. `created` is in seconds since 1970."""
+
+    number: int
+    created: float
+    note: str = ""
+
+
 class SegmentationRecord(_Record):
     """One way to cut an animation, and how far it is.
 
     queued -> running -> done | failed | cancelled. `token` names the current attempt: whoever holds another
     can no longer write. `problem` is what `CaesuraError.problem()` gave, or one of kind `worker`, which is not
     the file's fault: posting the same again then starts anew. `parameters` are complete, defaults filled in.
+    `segments` are the computed ones; `revision` is the number of the newest revision of them, 0 without any.
     """
 
     id: str
@@ -110,6 +119,7 @@ class SegmentationRecord(_Record):
     motions: int | None = None
     frames: int | None = None
     segments: tuple[Segment, ...] = ()
+    revision: int = 0
 
     @property
     def live(self) -> bool:

@@ -23,7 +23,7 @@ def _rows(found: SegmentationDocument) -> Iterator[str]:
     for segment in found.segments:
         frames = f"{segment.start:>6} … {segment.end:>6}"
         seconds = f"{segment.start_seconds:>8.2f} … {segment.end_seconds:>8.2f}"
-        sure = f"{segment.confidence:.0%}" if segment.end < found.frames else ""
+        sure = "" if segment.confidence is None or segment.end == found.frames else f"{segment.confidence:.0%}"
         yield f"  {segment.name:<{names}}  {frames}  {seconds}  {sure:>5}".rstrip()
 
 

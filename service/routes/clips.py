@@ -1,9 +1,11 @@
 """The uploaded file again, with the motions as clips, or with the key poses alone."""
 
+from dataclasses import dataclass
 from pathlib import PurePath
 from typing import Annotated
 
 from fastapi import APIRouter, Query, Request, Response
+from pydantic import Field
 
 from core.formats.clips.options import ClipOptions
 from service.access import Owner
@@ -12,28 +14,49 @@ from service.descriptions import CLIPS, KEY_POSES
 from service.errors import Refusal
 from service.preferences import wait_seconds
 from service.results import made_file, unfinished
+from service.revisions import WHICH, Revision, number_of
+
+
+class ClipQuery(ClipOptions):
+    """The choices, and the revision whose segments the clips are of."""
+
+    revision: str = Field("0", description=WHICH)
+
+    def choices(self) -> str:
+        """Those of how clips are made, as `ClipOptions.canonical`."""
+        return ClipOptions.of(self.model_dump(exclude={"revision"})).canonical()
+
+
+@dataclass(frozen=True)
+class _Made:
+    what: str
+    revision: str
+    choices: str = ""
+
 
 router = APIRouter(prefix="/v1/segmentations/{identifier}", tags=["clips"])
 
 
 @router.get("/clips", responses=CLIPS)
 async def clips(
-    identifier: str, request: Request, backend: Behind, owner: Owner, options: Annotated[ClipOptions, Query()]
+    identifier: str, request: Request, backend: Behind, owner: Owner, options: Annotated[ClipQuery, Query()]
 ) -> Response:
     """The uploaded glTF with one named animation for each segment, all else untouched.
 
     A zip where `files=separate`, and of a vertex sequence.
     """
-    return await _made(identifier, request, backend, owner, "clips", options.canonical())
+    return await _made(identifier, request, backend, owner, _Made("clips", options.revision, options.choices()))
 
 
 @router.get("/keyframes", responses=KEY_POSES)
-async def keyframes(identifier: str, request: Request, backend: Behind, owner: Owner) -> Response:
+async def keyframes(
+    identifier: str, request: Request, backend: Behind, owner: Owner, revision: Revision = "0"
+) -> Response:
     """The uploaded glTF with one animation that steps from key pose to key pose."""
-    return await _made(identifier, request, backend, owner, "keyframes", "")
+    return await _made(identifier, request, backend, owner, _Made("keyframes", revision))
 
 
-async def _made(identifier: str, request: Request, backend: Backend, owner: str, what: str, options: str) -> Response:
+async def _made(identifier: str, request: Request, backend: Backend, owner: str, made: _Made) -> Response:
     record = await backend.awaited(await backend.segmentation(identifier, owner), wait_seconds(request))
     refused = unfinished(request, record)
     if refused is not None:
@@ -41,7 +64,9 @@ async def _made(identifier: str, request: Request, backend: Backend, owner: str,
     animation = await backend.animation(record.animation, owner)
     if not animation.parts:
         raise Refusal("gone", "The upload is no longer kept here: its time has run out. Upload it again.")
-    form = f"{what}?{options}" if options else what
+    number = number_of(record, made.revision)
+    query = "&".join(filter(None, (f"revision={number}" if number else "", made.choices)))
+    form = f"{made.what}?{query}" if query else made.what
     stem = PurePath(record.name or animation.name).stem or record.id
     here = f"/v1/segmentations/{identifier}/{form}"
-    return await made_file(backend, request, record, form, here, f"{stem}-{what}.glb")
+    return await made_file(backend, request, record, form, here, f"{stem}-{made.what}.glb")

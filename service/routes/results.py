@@ -13,7 +13,8 @@ from service.documents import ViewerDocument
 from service.errors import Refusal
 from service.forms import by_accept, by_suffix
 from service.ranges import Stored, stored_response
-from service.results import result
+from service.results import Wanted, result
+from service.revisions import Revision
 from worker.schema import ViewerRecord
 
 Table = Annotated[Literal["segments", "frames"], Query(description="csv: a row per segment, or per frame")]
@@ -23,20 +24,31 @@ router = APIRouter(prefix="/v1/segmentations/{identifier}", tags=["results"])
 
 @router.get("/result", responses=RESULT)
 async def by_header(
-    identifier: str, request: Request, backend: Behind, owner: Owner, table: Table = "segments"
+    identifier: str,
+    request: Request,
+    backend: Behind,
+    owner: Owner,
+    table: Table = "segments",
+    revision: Revision = "0",
 ) -> Response:
     """The result, in the form that Accept likes best; the segmentation document where anything will do."""
-    form = by_accept(request.headers.get("accept", ""))
-    return await result(backend, request, await backend.segmentation(identifier, owner), form, table)
+    wanted = Wanted(by_accept(request.headers.get("accept", "")), table, revision)
+    return await result(backend, request, await backend.segmentation(identifier, owner), wanted)
 
 
 @router.get("/result.{suffix}", responses=RESULT)
 async def by_name(
-    identifier: str, suffix: str, request: Request, backend: Behind, owner: Owner, table: Table = "segments"
+    identifier: str,
+    suffix: str,
+    request: Request,
+    backend: Behind,
+    owner: Owner,
+    table: Table = "segments",
+    revision: Revision = "0",
 ) -> Response:
     """The result in the form that the address ends in: json, csv, npz or vtt."""
-    form = by_suffix(suffix)
-    return await result(backend, request, await backend.segmentation(identifier, owner), form, table)
+    wanted = Wanted(by_suffix(suffix), table, revision)
+    return await result(backend, request, await backend.segmentation(identifier, owner), wanted)
 
 
 @router.get("/viewer", response_model=ViewerDocument)

@@ -23,6 +23,7 @@ class ClipOptions(BaseModel):
     split_repeats: bool = Field(False, description="one clip for each repetition, where a segment has several")
     loop: str = Field("", description="motions whose clips loop, by name, with commas between: suffix `-loop`")
     discard: str = Field("", description="motions to leave out, by name, with commas between")
+    keep_discarded: bool = Field(False, description="clips of segments too that a revision discards")
     files: Literal["one", "separate"] = Field("one", description="one file with all clips, or a zip of one file each")
     animation_only: bool = Field(False, description="nodes and clips alone, without meshes and materials")
 

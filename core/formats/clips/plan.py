@@ -64,7 +64,7 @@ def plan(
     pieces = [
         piece
         for segment in document.segments
-        if segment.name not in discarded
+        if segment.name not in discarded and (options.keep_discarded or not segment.discard)
         for part in _parts(segment, options.split_repeats)
         for piece in _pieces(document, segment, part, stretches)
         if piece.end - piece.start >= options.min_seconds
@@ -75,13 +75,16 @@ def plan(
             "No clip is left: every segment is discarded, or shorter than min_seconds. Ask for less to be left out.",
             parameter="discard" if discarded else "min_seconds",
         )
-    names = numbered(((piece.segment.name, piece.segment.name in looping) for piece in pieces), taken)
+    names = numbered(
+        ((piece.segment.name, piece.segment.loop or piece.segment.name in looping) for piece in pieces), taken
+    )
     return tuple(_clip(document, options, name, piece) for name, piece in zip(names, pieces, strict=True))
 
 
 def _clip(document: SegmentationDocument, options: ClipOptions, name: str, piece: _Piece) -> Clip:
     extras = {
         "segmentation": document.id,
+        "revision": document.revision or None,
         "motion": piece.segment.name,
         "start": piece.frames.start,
         "end": piece.frames.end,

@@ -1,0 +1,74 @@
+"""Revisions: the segments as people have set them, layer by layer over the result that was computed."""
+
+from anyio import to_thread
+from fastapi import APIRouter, Request, Response
+
+from core.revision import checked
+from service.access import Owner
+from service.answers import answer
+from service.backend import Backend, Behind
+from service.descriptions import REVISED, REVISION_BODY
+from service.documents import RevisionDocument, RevisionEntry, RevisionList
+from service.ranges import caching, not_modified
+from service.results import unfinished
+from service.revisions import document_of, expected, number_of, order_of, stale
+from worker.revisions import Revisions, add_revision
+from worker.schema import RevisionRecord, SegmentationRecord
+
+router = APIRouter(prefix="/v1/segmentations/{identifier}/revisions", tags=["revisions"])
+
+
+@router.post("", status_code=201, response_model=RevisionDocument, responses=REVISED, openapi_extra=REVISION_BODY)
+async def create(identifier: str, request: Request, backend: Behind, owner: Owner) -> Response:
+    """Keep the segments as a person has set them, as the newest revision; the computed result stays as it is.
+
+    If-Match names the revision that was edited: where another has come since, 412 and nothing is kept.
+    """
+    record = await backend.segmentation(identifier, owner)
+    refused = unfinished(request, record)
+    if refused is not None:
+        return refused
+    before = expected(request)
+    order = await order_of(request)
+    edits = checked(order.segments, record.frames or 0)
+    kept = await to_thread.run_sync(add_revision, backend.jobs.records, identifier, before, order.note, edits)
+    if kept is None:
+        raise stale(await backend.segmentation(identifier, owner))
+    headers = {"Location": f"/v1/segmentations/{identifier}/revisions/{kept.number}", "ETag": f'"{kept.number}"'}
+    return answer(await _document(backend, record, kept), 201, headers)
+
+
+@router.get("", response_model=RevisionList)
+async def revisions(identifier: str, request: Request, backend: Behind, owner: Owner) -> Response:
+    """Every revision without its segments, the computed result first; the ETag is that of the newest."""
+    record = await backend.segmentation(identifier, owner)
+    refused = unfinished(request, record)
+    if refused is not None:
+        return refused
+    kept = [_computed(record), *await Revisions(backend.records).all(identifier)]
+    entries = tuple(RevisionEntry.of(identifier, one) for one in kept)
+    return answer(RevisionList(revisions=entries), 200, caching(f'"{kept[-1].number}"'))
+
+
+@router.get("/{revision}", response_model=RevisionDocument)
+async def revision(identifier: str, revision: str, request: Request, backend: Behind, owner: Owner) -> Response:
+    """One revision with its segments: 0 is the result as computed, `latest` the newest."""
+    record = await backend.segmentation(identifier, owner)
+    refused = unfinished(request, record)
+    if refused is not None:
+        return refused
+    number = number_of(record, revision)
+    headers = caching(f'"{number}"')
+    if not_modified(request, headers["ETag"]):
+        return Response(status_code=304, headers=headers)
+    kept = await Revisions(backend.records).one(identifier, number) if number else None
+    return answer(await _document(backend, record, kept[0] if kept else _computed(record)), 200, headers)
+
+
+async def _document(backend: Backend, record: SegmentationRecord, kept: RevisionRecord) -> RevisionDocument:
+    segments = (await document_of(backend, record, kept.number)).segments
+    return RevisionDocument.of(record.id, kept, segments=segments)
+
+
+def _computed(record: SegmentationRecord) -> RevisionRecord:
+    return RevisionRecord(number=0, created=record.created)
