@@ -7,6 +7,7 @@ python -m worker --check                            exit status 0 where a worker
 """
 
 import argparse
+import gc
 import logging
 import os
 import sys
@@ -47,6 +48,7 @@ def run(settings: WorkerSettings, groups: list[list[str]]) -> None:
     from worker.warming import warm  # noqa: PLC0415
 
     warm()
+    gc.freeze()  # what is loaded now stays: collecting it would copy the pages that the forks share
     jobs = Jobs.open(settings)
 
     def tend() -> None:
@@ -59,8 +61,12 @@ def run(settings: WorkerSettings, groups: list[list[str]]) -> None:
 
 def _work(queues: list[str], settings: WorkerSettings) -> None:
     """One worker, in its own process."""
+    from worker.tasks import prepare  # noqa: PLC0415  as in `run`
+
     client = connect(settings.redis_location)
-    CaesuraWorker(queues, client, Jobs.open(settings)).work(logging_level="INFO")
+    worker = CaesuraWorker(queues, client, Jobs.open(settings), prepare)
+    worker.saddle()
+    worker.work(logging_level="INFO")
 
 
 def _alive(settings: WorkerSettings) -> bool:

@@ -1,27 +1,33 @@
 """RQ's worker, as we want it: it dies with its parent, says that its job lives, and tells how a job was lost."""
 
+import json
 import os
+import random
 import signal
 import socket
 import time
+from collections.abc import Callable
 from datetime import UTC, datetime, timedelta
 from typing import Any
 
 from redis import Redis
 from rq import Queue as RqQueue
 from rq import Worker
+from rq.executions import Execution
 from rq.job import Job
 from rq.serializers import JSONSerializer
 
 from worker.attempt import OUT_OF_MEMORY, OUT_OF_TIME
-from worker.jobs import QUEUES, Jobs, worker_problem
-from worker.lifeline import die_with
+from worker.horse import Horse
+from worker.jobs import QUEUES, TASKS, Jobs, worker_problem
+from worker.priority import yield_to_others
 
 MONITOR_SECONDS = 5  # between signs of life while a job runs
 IDLE_SECONDS = 30  # between signs of life, and waits for a job, while none does
 MAINTENANCE_SECONDS = 60
 RECONNECT_SECONDS = 5.0
 FAR_SECONDS = 10**9
+CUTS_OF_A_HORSE = 200
 
 KILLED = worker_problem(
     "worker-killed", "The process that worked on this was killed, most likely because the machine ran out of memory."
@@ -29,12 +35,14 @@ KILLED = worker_problem(
 
 
 class CaesuraWorker(Worker):
-    """Takes jobs from its queues, each in a fork of its own (the work-horse)."""
+    """Takes jobs from its queues, and has them done by a fork that stands ready (the work-horse)."""
 
     max_connection_wait_time = RECONNECT_SECONDS
     log_result_lifespan = False
 
-    def __init__(self, queues: list[str], client: Redis, jobs: Jobs) -> None:
+    def __init__(
+        self, queues: list[str], client: Redis, jobs: Jobs, prepare: Callable[[], None] = lambda: None
+    ) -> None:
         super().__init__(
             [RqQueue(name, connection=client, serializer=JSONSerializer) for name in queues],
             connection=client,
@@ -45,12 +53,60 @@ class CaesuraWorker(Worker):
             work_horse_killed_handler=self._lost,
         )
         self._jobs = jobs
+        self._prepare = prepare
         self._handing_back = False
+        self._horse: Horse | None = None
+        self._done = 0
 
-    def main_work_horse(self, job: Job, queue: RqQueue) -> None:
-        """In the fork: hang its life on the worker's, then do the job."""
-        die_with(os.getppid())
-        super().main_work_horse(job, queue)
+    def execute_job(self, job: Job, queue: RqQueue) -> None:
+        """In the worker: have a job done, and the next horse stand ready before the next job comes."""
+        super().execute_job(job, queue)
+        self.saddle()
+
+    def saddle(self) -> None:
+        """Fork a horse, where none is ready."""
+        if self._horse is None:
+            self._horse = Horse(self._prepare, self._perform)
+
+    def fork_work_horse(self, job: Job, queue: RqQueue) -> None:
+        """In the worker: give the job to the horse."""
+        assert self.execution is not None  # noqa: S101  RQ has just made it
+        order = json.dumps([job.id, self.execution.id, queue.name])
+        self.saddle()
+        while self._horse is not None and not self._horse.give(order):  # it was killed while it stood there
+            self._bury()
+            self.saddle()
+        assert self._horse is not None  # noqa: S101  saddled above
+        self._horse_pid = self._horse.pid
+
+    def wait_for_horse(self) -> tuple[int | None, int | None, Any]:
+        """In the worker: until the job is over; a horse that may do another one is kept."""
+        assert self._horse is not None  # noqa: S101  it got the job
+        pid, status, used = self._horse.wait()
+        if used is not None:  # it has ended
+            self._horse.dismiss()
+            self._horse = None
+        return pid, status, used
+
+    def _bury(self) -> None:
+        if self._horse is not None:
+            self._horse.dismiss()
+            os.waitpid(self._horse.pid, 0)
+            self._horse = None
+
+    def _perform(self, order: str) -> bool:
+        """In the horse: do a job. Cuts are small and alike, so the same horse does many; whatever else ends it."""
+        job_id, execution, name = json.loads(order)
+        queue = RqQueue(name, connection=self.connection, serializer=JSONSerializer)
+        job = Job.fetch(job_id, connection=self.connection, serializer=JSONSerializer)
+        self.execution = Execution(execution, job_id, self.connection, self.name)
+        self._is_horse = True
+        if name == "analyse":
+            yield_to_others()
+        random.seed()
+        self._done += 1
+        done = self.perform_job(job, queue)
+        return done and job.func_name == TASKS["cut"] and self._done < CUTS_OF_A_HORSE
 
     def unsubscribe(self) -> None:
         """At the end: RQ would wait a second for its listening thread, which ends with the process anyway."""

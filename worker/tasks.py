@@ -15,40 +15,42 @@ from worker.alternatives import add_alternative
 from worker.attempt import Attempt, Superseded, carry_out
 from worker.blobs import BlobMissing, Blobs
 from worker.cpu import available_threads
-from worker.jobs import Jobs
 from worker.mapping import mapped_parts, scratch_space
+from worker.place import place, stored_analysis
 from worker.retention import sweep
 from worker.schema import AnalysisRecord, AnimationRecord, ViewerRecord
-from worker.settings import WorkerSettings
+from worker.warming import rehearse
 
 DAY = 24 * 3600.0
 
 
+def prepare() -> None:
+    """Connect and rehearse, before there is a job."""
+    place().jobs.redis.ping()
+    rehearse()
+
+
 def run_analyse(identifier: str, token: str) -> None:
     """The job of the queue `analyse`: from the vertices to the result."""
-    settings = WorkerSettings()
-    carry_out(Jobs.open(settings), identifier, token, lambda attempt: _analyse(attempt, settings))
+    carry_out(place().jobs, identifier, token, _analyse)
 
 
 def run_cut(identifier: str, token: str) -> None:
     """The job of the queue `cut`: another cut of a stored analysis. It never sees a vertex."""
-    settings = WorkerSettings()
-    carry_out(Jobs.open(settings), identifier, token, lambda attempt: _cut(attempt, settings))
+    carry_out(place().jobs, identifier, token, _cut)
 
 
 def run_alternatives(identifier: str) -> None:
     """The result for every other number of motions that it scored: nobody waits for them, and none is a must."""
-    settings = WorkerSettings()
-    records = Jobs.open(settings).records
+    settings, records = place().settings, place().jobs.records
     record, (document, _, _) = records.segmentation(identifier), records.result(identifier)
     if record is None or record.analysis is None or document is None:
         return  # deleted meanwhile
     Allowance(settings.job_memory_bytes, settings.job_seconds)
-    blobs = Blobs.open(settings.store_location, settings.scratch_dir)
     found = SegmentationDocument.model_validate_json(document)
     scored = [score.motions for score in found.scores]
     with suppress(BlobMissing):
-        analysis = Analysis.from_bytes(blobs.read(record.analysis.key))
+        analysis = stored_analysis(record.analysis.key)
         for made in alternatives(analysis, record.chosen(), scored, found.motions):
             if not add_alternative(records, identifier, made.document()):
                 return
@@ -56,25 +58,23 @@ def run_alternatives(identifier: str) -> None:
 
 def run_export(identifier: str, form: str) -> None:
     """A file made of a result, for the web process has no arrays."""
-    settings = WorkerSettings()
-    blobs = Blobs.open(settings.store_location, settings.scratch_dir)
-    exports.run(Jobs.open(settings).records, blobs, settings, identifier, form)
+    here = place()
+    exports.run(here.jobs.records, here.blobs, here.settings, identifier, form)
 
 
 def run_sweep() -> None:
     """Forget what is kept too long."""
-    settings = WorkerSettings()
-    blobs = Blobs.open(settings.store_location, settings.scratch_dir)
-    sweep(Jobs.open(settings), blobs, settings.keep_upload_days * DAY, settings.keep_result_days * DAY)
+    settings, jobs, blobs = place().settings, place().jobs, place().blobs
+    sweep(jobs, blobs, settings.keep_upload_days * DAY, settings.keep_result_days * DAY)
 
 
-def _analyse(attempt: Attempt, settings: WorkerSettings) -> None:
+def _analyse(attempt: Attempt) -> None:
     record, parameters = attempt.record, attempt.record.chosen()
+    settings, blobs = place().settings, place().blobs
     digest = ids.heavy_digest(parameters.heavy(), record.algorithm)
     threads = settings.threads or available_threads()
     uploaded = _animation(attempt)
     allowance = Allowance(settings.job_memory_bytes, settings.job_seconds * threads)
-    blobs = Blobs.open(settings.store_location, settings.scratch_dir)
     attempt.progress("read", 0.0)
     with mapped_parts(blobs, uploaded.parts, allowance.grant) as parts:
         scratch = scratch_space(settings.scratch_dir, allowance.grant)
@@ -102,15 +102,14 @@ def _keep(attempt: Attempt, blobs: Blobs, digest: str, made: AnalysisRecord) -> 
     return kept
 
 
-def _cut(attempt: Attempt, settings: WorkerSettings) -> None:
-    record, parameters = attempt.record, attempt.record.chosen()
+def _cut(attempt: Attempt) -> None:
+    record, parameters, settings = attempt.record, attempt.record.chosen(), place().settings
     digest = ids.heavy_digest(parameters.heavy(), record.algorithm)
     Allowance(settings.job_memory_bytes, settings.job_seconds)
-    blobs = Blobs.open(settings.store_location, settings.scratch_dir)
     stored = attempt.records.analysis(record.animation, digest)
     if stored is not None:
         with suppress(BlobMissing):
-            analysis = Analysis.from_bytes(blobs.read(stored.key))
+            analysis = stored_analysis(stored.key)
             _finish(attempt, stored, analysis, parameters)
             return
         attempt.records.delete_analysis(record.animation, digest)

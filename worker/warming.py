@@ -3,9 +3,12 @@
 On one thread only: BLAS and OpenMP pools made before a fork hang the child (see `threadpoolctl` in core).
 """
 
+from dataclasses import replace
+
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from core.analysis import Analysis
 from core.animation import Animation, Take
 from core.formats.gltf.writer import Channel, GlbWriter, Primitive
 from core.formats.read import read_animation
@@ -18,6 +21,10 @@ FRAMES = 240
 RATE = 30.0
 
 
+_rehearsal: list[Analysis] = []
+"""What `warm` has analysed, for `rehearse`."""
+
+
 def warm() -> None:
     """Analyse and cut eight seconds of a bending sheet, by every method that has code of its own, and read a glTF."""
     file = read_animation({"": moving_gltf()}, Parameters(), Limits(), lambda size: memoryview(bytearray(size)))
@@ -26,8 +33,15 @@ def warm() -> None:
     parameters = Parameters(motions=2)
     with threadpool_limits(1):
         analysis = analyse(animation, parameters, threads=1)
+        _rehearsal.append(analysis)
         for method in filter("haca".__ne__, METHODS):  # its loops are those of aca, run thousands of times
             cut(analysis, parameters.model_copy(update={"method": method}))
+
+
+def rehearse() -> None:
+    """Cut what `warm` has analysed: after a fork the first touch of each page that was shared takes time."""
+    for analysis in _rehearsal:
+        cut(replace(analysis), Parameters(motions=2)).to_json()  # a copy, which knows no cut yet
 
 
 def moving_gltf() -> bytes:
