@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import NamedTuple
 
 LOOK_SECONDS = 0.2
 PROC = Path("/proc")
@@ -21,6 +22,14 @@ ROLES = (
     ("service.cli serve", "supervisor"),
 )
 """What a command line says of a process; all others below the service are workers or their work-horses."""
+
+
+class Running(NamedTuple):
+    """A service that runs: its URL, its process id, and the socket of its embedded Redis."""
+
+    url: str
+    pid: int
+    redis: Path
 
 
 class Watch:
@@ -66,8 +75,8 @@ def descendants(root: int) -> list[int]:
 
 
 @contextmanager
-def service() -> Iterator[tuple[str, int]]:
-    """A service of our own on a free port, with a data folder that is gone afterwards: its URL and process id."""
+def service() -> Iterator[Running]:
+    """A service of our own on a free port, with a data folder that is gone afterwards."""
     with TemporaryDirectory(prefix="caesura-bench-") as folder:
         environment = {name: value for name, value in os.environ.items() if name != "REDIS_URL"}
         process = subprocess.Popen(
@@ -79,7 +88,8 @@ def service() -> Iterator[tuple[str, int]]:
         )
         assert process.stdout is not None
         try:
-            yield process.stdout.readline().split()[-1], process.pid
+            url = process.stdout.readline().split()[-1]
+            yield Running(url, process.pid, Path(folder) / "redis" / "redis.sock")
         finally:
             process.send_signal(signal.SIGTERM)
             process.wait(60)

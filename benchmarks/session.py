@@ -42,7 +42,7 @@ def _measured(frames: int) -> list[str]:
     started = time.perf_counter()
     sample = long_session(frames)
     made = time.perf_counter() - started
-    with service() as (url, pid), Client(url) as client:
+    with service() as (url, pid, _), Client(url) as client:
         watch = Watch(pid)
         since = time.perf_counter()
         found = client.segment(io.BytesIO(sample.glb), "session.glb", {})

@@ -62,7 +62,7 @@ def write_sequence(file: Path, frames: int) -> None:
 
 def _posted(file: Path, way: str) -> str:
     """One row: the file posted one way to a fresh service."""
-    with service() as (url, pid), file.open("rb") as body, httpx.Client(timeout=600, trust_env=False) as http:
+    with service() as (url, pid, _), file.open("rb") as body, httpx.Client(timeout=600, trust_env=False) as http:
         watch = Watch(pid)
         since = time.perf_counter()
         address = f"{url}/v1/animations"

@@ -8,20 +8,18 @@ from fastapi import FastAPI
 GOODBYE_SECONDS = 3  # for answers that are under way
 
 
+def configuration(app: FastAPI, host: str = "127.0.0.1", port: int = 0) -> uvicorn.Config:
+    """How every web process of ours runs uvicorn."""
+    return uvicorn.Config(
+        app, host, port, timeout_graceful_shutdown=GOODBYE_SECONDS, access_log=False, server_header=False
+    )
+
+
 class Server(uvicorn.Server):
     """uvicorn, but for waits and event streams: they end when the process is told to stop, not when it is killed."""
 
     def __init__(self, app: FastAPI, host: str = "127.0.0.1", port: int = 0) -> None:
-        super().__init__(
-            uvicorn.Config(
-                app,
-                host,
-                port,
-                timeout_graceful_shutdown=GOODBYE_SECONDS,
-                access_log=False,
-                server_header=False,
-            )
-        )
+        super().__init__(configuration(app, host, port))
         self._app = app
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
