@@ -52,8 +52,9 @@ def _merged(mesh: Container, skeleton: Container) -> Pair:
         skeleton.root.entries(name)  # objects, or refused
         merged[name] = [*merged.get(name, []), *(_shifted(part, counts) for part in moving.get(name, []))]
     merged["animations"], matched, lost = _animations(mesh.root, skeleton.root, moving, counts["accessors"])
-    required = {*mesh.root.values("extensionsRequired"), *skeleton.root.values("extensionsRequired")}
-    merged["extensionsRequired"] = sorted(name for name in required if isinstance(name, str))
+    merged["extensionsRequired"] = [
+        name for found in (mesh, skeleton) for name in found.root.values("extensionsRequired")
+    ]
     detail = f"The mesh is of one file and the motion of the other; {matched} of its nodes were found by name."
     if lost:
         detail += f" {lost} were not, and do not move."

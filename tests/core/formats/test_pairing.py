@@ -75,7 +75,8 @@ def test_two_files_that_are_no_pair_are_refused() -> None:
 @pytest.mark.parametrize(
     "change",
     [
-        {"accessors": [1]}, {"bufferViews": None}, {"animations": [{"samplers": [{"input": -1}], "channels": []}]},
+        {"accessors": [1]}, {"extensionsRequired": [{}]}, {"bufferViews": None},
+        {"animations": [{"samplers": [{"input": -1}], "channels": []}]},
         {"animations": [{"channels": [{"target": {"node": 99}, "sampler": 0}]}]}, {"nodes": 3}, {"buffers": [[]]},
         {"animations": [{"samplers": [{"input": 0, "output": 1}], "channels": [{"target": 4}]}]},
     ],
