@@ -46,17 +46,29 @@ export const segmentationsOf = (id) => call('GET', `/v1/segmentations?animation=
 export const methods = () => call('GET', '/v1/methods');
 export const status = (id, wait, signal) =>
   call('GET', `/v1/segmentations/${id}`, { headers: wait ? { Prefer: `wait=${wait}` } : {}, signal });
-export const result = (id) => call('GET', `/v1/segmentations/${id}/result`, { headers: { Accept: 'application/json' } });
+export const result = (id, revision = 0) =>
+  call('GET', `/v1/segmentations/${id}/result${asked(revision)}`, { headers: { Accept: 'application/json' } });
+export const revisions = (id) => call('GET', `/v1/segmentations/${id}/revisions`);
 export const viewer = (id) => call('GET', `/v1/segmentations/${id}/viewer`);
 export const cancel = (id) => call('DELETE', `/v1/segmentations/${id}`);
 export const segment = (animationId, parameters = {}) =>
   call('POST', '/v1/segmentations', json({ animation: animationId, ...parameters }));
-export const download = (id, form) => `/v1/segmentations/${id}/result.${form}`;
-export const clips = (id) => `/v1/segmentations/${id}/clips`;
 
-/** Whether the clips are there to be fetched, after waiting for them for a while. */
-export async function clipsReady(id) {
-  const answer = await fetch(clips(id), { headers: { Prefer: 'wait=30', Range: 'bytes=0-0' } }).catch(() => null);
+/** Where a form of the result is, as of a revision: `result.csv`, `clips`, `plot.svg`. */
+export const form = (id, name, revision = 0) => `/v1/segmentations/${id}/${name}${asked(revision)}`;
+const asked = (revision) => (revision ? `?revision=${revision}` : '');
+
+/** Keep edited segments as the revision after number `newest`; 412 where somebody else has made one since. */
+export function revise(id, segments, newest, note) {
+  const sent = segments.map(({ start, end, motion, name, loop, discard }) =>
+    ({ start, end, motion, name, loop: Boolean(loop), discard: Boolean(discard) }));
+  const { body, headers } = json({ segments: sent, note });
+  return call('POST', `/v1/segmentations/${id}/revisions`, { body, headers: { ...headers, 'If-Match': `"${newest}"` } });
+}
+
+/** Whether what a worker has to write first is there to be fetched, after waiting for it for a while. */
+export async function written(address) {
+  const answer = await fetch(address, { headers: { Prefer: 'wait=30', Range: 'bytes=0-0' } }).catch(() => null);
   if (!answer) throw new Problem(UNREACHABLE);
   if (!answer.ok) throw new Problem(await problemOf(answer));
   return answer.status !== 202;

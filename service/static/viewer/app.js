@@ -3,13 +3,14 @@
 import * as api from './api.js';
 import { controls, note, offerMethods } from './controls.js';
 import { $ } from './dom.js';
-import { keyboard } from './keyboard.js';
-import { count } from './numbers.js';
+import { drawHeatKey } from './heat.js';
 import { beginProgress, progress, statusProgress } from './progress.js';
 import { showRecent } from './recent.js';
-import { Result, about, drawHeatKey } from './result.js';
+import { Result } from './result.js';
+import { about, count } from './numbers.js';
 import { acceptFiles } from './upload.js';
 import { finished } from './waiting.js';
+import { wire } from './wiring.js';
 
 let shown = null; // the Result on screen
 let status = null; // its status document
@@ -37,12 +38,13 @@ function refuse(problem) {
 
 /** Files a person gave: send them, have them cut, show the result. */
 async function openFiles(files) {
+  if (!(await leave())) return;
   const signal = begin();
   files = inOrder(files);
-  shown?.clock.toggle(false);
   $('subject').textContent = '';
   beginProgress(files[0].name);
   face('waiting', files[0].name);
+  $('waiting-cancel').onclick = () => { history.pushState(null, '', '/'); route(); };
   try {
     progress('upload', 0);
     const animation = await api.upload(files, (share) => progress('upload', share), signal);
@@ -78,7 +80,8 @@ async function follow(id, signal) {
     if (now.name) $('waiting-name').textContent = now.name;
     statusProgress(now);
   }, signal);
-  const result = await api.result(id);
+  const revision = revisionOfAddress() ?? status.revision ?? 0;
+  const result = await api.result(id, revision);
   if (signal.aborted) return;
   show({ ...result, id });
 }
@@ -87,12 +90,13 @@ function show(result) {
   shown?.close();
   face('result', status.name);
   $('subject').textContent = [status.name, about(result)].filter(Boolean).join(' · ');
-  shown = new Result(result);
-  shown.look(document.querySelector('#looks input:checked').value);
+  shown = new Result(result, status.revision ?? 0, changed);
+  shown.presence.look(document.querySelector('#looks input:checked').value);
   const frame = frameOfAddress();
   if (frame !== null) shown.clock.seek(frame);
   shown.clock.listen(remember);
-  shown.figure();
+  shown.presence.enter(result.id);
+  changed();
 }
 
 /** The same take cut another way: the figure, the moment and the zoom stay. */
@@ -101,25 +105,47 @@ async function recut(changes) {
   const result = shown;
   const waiting = setTimeout(() => note('Cutting again …'), 150);
   try {
+    await result.editor.saving.flush();
     const parameters = { ...result.document.parameters, ...changes };
     const segmentation = await api.segment(status.animation, parameters);
     status = await finished(segmentation.id, () => {}, signal);
-    const document = { ...(await api.result(segmentation.id)), id: segmentation.id };
+    const document = { ...(await api.result(segmentation.id, status.revision ?? 0)), id: segmentation.id };
     if (signal.aborted || shown !== result) return;
     history.pushState(null, '', `/view/${segmentation.id}${location.hash}`);
-    result.show(document);
-    note(changed(document));
+    result.show(document, status.revision ?? 0);
+    note(`Now ${count(document.motions, 'motion')} in ${count(document.segments.length, 'segment')}.`);
   } catch (problem) {
     if (problem.name !== 'AbortError') note(problem.message);
   } finally { clearTimeout(waiting); }
 }
 
-const changed = (document) => `Now ${count(document.motions, 'motion')} in ${count(document.segments.length, 'segment')}.`;
+/** Another revision of the same result, after what is open is kept (or, where it cannot be, dropped on purpose). */
+async function openRevision(number, dropping = false) {
+  const result = shown;
+  const { id } = result.document;
+  try {
+    if (!dropping) await result.editor.saving.flush();
+    const newest = dropping ? number : result.editor.saving.newest;
+    const document = { ...(await api.result(id, number)), id };
+    if (shown !== result) return;
+    history.replaceState(null, '', `/view/${id}${number === newest ? '' : `?revision=${number}`}${location.hash}`);
+    result.show(document, newest);
+  } catch (problem) { note(problem.message); }
+}
 
-const frameOfAddress = () => {
-  const match = /[#&]frame=(\d+)/.exec(location.hash);
+/** Whether the result on screen may be left: open edits are kept first. */
+async function leave() {
+  shown?.clock.toggle(false);
+  if (!shown?.editor.saving.open) return true;
+  return shown.editor.saving.flush().then(() => true, () => confirm('Your last edits could not be saved. Leave all the same?'));
+}
+
+const frameOfAddress = () => numberAfter(location.hash, /[#&]frame=(\d+)/);
+const revisionOfAddress = () => numberAfter(location.search, /[?&]revision=(\d+)/);
+function numberAfter(text, pattern) {
+  const match = pattern.exec(text);
   return match ? Number(match[1]) : null;
-};
+}
 
 /** Keep the moment in the address, once it rests: browsers refuse to be told sixty times a second. */
 let resting;
@@ -127,16 +153,16 @@ function remember(clock) {
   clearTimeout(resting);
   if (clock.playing) return;
   resting = setTimeout(() => {
-    if (document.body.dataset.view === 'result') history.replaceState(null, '', `${location.pathname}#frame=${clock.frame}`);
+    if (document.body.dataset.view === 'result') history.replaceState(null, '', `${location.pathname}${location.search}#frame=${clock.frame}`);
   }, 250);
 }
 
 /** What the address asks for. */
 async function route() {
   const id = /^\/view\/([^/]+)$/.exec(location.pathname)?.[1];
-  if (id && shown?.document.id === id) return;
+  if (id && shown?.document.id === id && document.body.dataset.view === 'result') return;
+  await leave();
   const signal = begin();
-  shown?.clock.toggle(false);
   if (!id) {
     $('subject').textContent = '';
     face('start');
@@ -150,39 +176,12 @@ async function route() {
   try { await follow(id, signal); } catch (problem) { refuse(problem); }
 }
 
-function wire() {
-  const on = (id, event, action) => $(id).addEventListener(event, action);
-  on('play', 'click', () => shown.clock.toggle());
-  on('previous', 'click', () => shown.jump(-1));
-  on('next', 'click', () => shown.jump(1));
-  on('speed', 'change', (event) => { shown.clock.speed = Number(event.target.value); });
-  on('loop', 'change', (event) => shown.loop(event.target.checked));
-  on('frame', 'focus', (event) => event.target.select());
-  on('frame', 'keydown', (event) => { if (event.key === 'Enter' || event.key === 'Escape') event.target.blur(); });
-  on('frame', 'change', (event) => {
-    const frame = event.target.value.replace(/\s/g, '');
-    if (/^\d+$/.test(frame)) { shown.clock.seek(Number(frame)); shown.span.reveal(shown.clock.frame); }
-  });
-  on('frame', 'blur', () => shown.clock.tell()); // what was typed and is no frame goes back to the one shown
-  on('zoom-in', 'click', () => shown.span.zoom(1.6, shown.clock.frame));
-  on('zoom-out', 'click', () => shown.span.zoom(1 / 1.6, shown.clock.frame));
-  on('zoom-fit', 'click', () => shown.span.all());
-  on('reframe', 'click', () => shown.stage?.reframe());
-  on('follow', 'change', (event) => { if (shown.stage) shown.stage.following = event.target.checked; });
-  on('upright', 'click', (event) => {
-    const pressed = event.target.getAttribute('aria-pressed') !== 'true';
-    event.target.setAttribute('aria-pressed', String(pressed));
-    shown.stage?.turn(pressed);
-  });
-  on('looks', 'change', (event) => shown.look(event.target.value));
-  controls({ recut, current: () => shown.document });
-  keyboard({ clock: () => (document.body.dataset.view === 'result' ? shown?.clock : null), span: () => shown.span, jump: (by) => shown.jump(by) });
-  acceptFiles(openFiles);
-  addEventListener('popstate', route);
-  addEventListener('hashchange', () => { const frame = frameOfAddress(); if (frame !== null) shown?.clock.seek(frame); });
-}
-
-wire();
+const onScreen = () => (document.body.dataset.view === 'result' ? shown : null);
+const changed = wire({ shown: onScreen, name: () => status?.name, recut, openRevision, note });
+controls({ recut, current: () => shown.document });
+acceptFiles(openFiles);
+addEventListener('popstate', route);
+addEventListener('hashchange', () => { const frame = frameOfAddress(); if (frame !== null) shown?.clock.seek(frame); });
 drawHeatKey();
 offerMethods();
 route();

@@ -6,7 +6,7 @@ export class Clock {
 
   /** `ready(frame)`: false holds the clock, so that playback never runs ahead of what has been fetched. */
   constructor(frames, rate, ready = () => true) {
-    Object.assign(this, { frames, rate, ready, position: 0, speed: 1, playing: false, held: false, loop: null });
+    Object.assign(this, { frames, rate, ready, position: 0, speed: 1, playing: false, held: false, loop: null, until: null });
   }
 
   get frame() { return Math.min(this.frames - 1, Math.floor(this.position + 1e-6)); }
@@ -20,12 +20,22 @@ export class Clock {
   }
 
   toggle(playing = !this.playing) {
+    this.until = null;
     if (playing === this.playing) return;
     if (playing && !this.loop && this.position >= this.frames - 1) this.position = 0;
     this.playing = playing;
     this.#last = 0;
     if (playing) requestAnimationFrame((now) => this.#tick(now));
     this.tell();
+  }
+
+  /** Play [start, end) once, at normal speed, then come to rest at `rest`. */
+  once(start, end, rest) {
+    this.toggle(false);
+    this.loop = null;
+    this.seek(start);
+    this.toggle(true);
+    this.until = { end: Math.min(end, this.frames - 1), rest };
   }
 
   tell() { for (const listener of this.#listeners) listener(this); }
@@ -36,13 +46,18 @@ export class Clock {
     const passed = this.#last ? Math.min(0.1, (now - this.#last) / 1000) : 0;
     this.#last = now;
     const [start, end] = this.loop || [0, this.frames];
-    let next = this.position + passed * this.rate * this.speed;
-    if (next >= end - (this.loop ? 0 : 1)) {
+    let next = this.position + passed * this.rate * (this.until ? 1 : this.speed);
+    if (this.until && next >= this.until.end) {
+      next = this.until.rest;
+      this.playing = false;
+      this.until = null;
+    } else if (next >= end - (this.loop ? 0 : 1)) {
       if (this.loop) next = start + ((next - start) % Math.max(1, end - start));
       else { next = this.frames - 1; this.playing = false; }
     }
     this.held = !this.ready(Math.floor(next));
-    if (this.held) this.playing = true; else this.position = next;
+    if (!this.held) this.position = next;
+    else this.playing = true;
     this.tell();
     if (this.playing) requestAnimationFrame((later) => this.#tick(later));
   }

@@ -2,8 +2,12 @@
 
 import * as api from './api.js';
 import { $, make } from './dom.js';
+import { showScores } from './scores.js';
 
 const DELAY = 350; // ms of quiet before a typed or stepped number is sent
+
+let choose = () => {};
+let compared = { of: '', scores: [] }; // a cut into a given number has no scores: those of the same method stay
 
 /** Wire the form once. `recut(changes)` posts; `current()` is the document on screen. */
 export function controls({ recut, current }) {
@@ -26,6 +30,7 @@ export function controls({ recut, current }) {
     $('auto').setAttribute('aria-pressed', 'false');
     send({ motions: number }, DELAY);
   };
+  choose = (number) => { field.value = number; send({ motions: number }); };
   $('fewer').addEventListener('click', () => step(-1));
   $('more').addEventListener('click', () => step(1));
   $('auto').addEventListener('click', () => { field.value = ''; send({ motions: 'auto' }); });
@@ -54,6 +59,10 @@ export function reflect(document) {
   const select = $('method');
   if (![...select.options].some((option) => option.value === document.method)) select.append(option(document.method));
   select.value = document.method;
+  const of = [document.source.name, document.frames, document.method, document.parameters.take].join();
+  if (compared.of !== of || document.scores.length > 1) compared = { of, scores: document.scores };
+  const chosen = auto ? document.motions : motions; // of a revision, what is shown; else what was asked for
+  showScores(compared.scores, chosen, choose);
 }
 
 const option = (name, title) => make('option', { value: name, title: title || '' }, name);

@@ -1,6 +1,7 @@
 // The energy curve, its key-frames and the cuts, over the colours of the motions.
 
 import uPlot from 'uplot';
+import { numberOf } from './counting.js';
 import { onceAFrame, onResize, onTheme, styled } from './dom.js';
 import { colourOf } from './palette.js';
 import { thinned } from './thinning.js';
@@ -29,6 +30,12 @@ export class Curve {
     this.#draw();
   }
 
+  /** The same curve with other segments under it. */
+  edited(document) {
+    this.#document = document;
+    this.refresh();
+  }
+
   /** Where the plot lies in its box, in CSS pixels: the timeline and the playhead line up with it. */
   get plot() { return { left: AXIS, width: Math.max(10, this.#width - AXIS - RIGHT) }; }
 
@@ -50,7 +57,7 @@ export class Curve {
         y: { range: () => [0, highest * 1.12] },
       },
       axes: [
-        { ...axis, size: 22, gap: 4, space: 70, values: (_, ticks) => ticks.map((t) => (Number.isInteger(t) ? t : '')) },
+        { ...axis, size: 22, gap: 4, space: 70, values: (_, ticks) => ticks.map((t) => (Number.isInteger(t) ? numberOf(t) : '')) },
         { ...axis, size: AXIS, gap: 6, space: 34, values: (_, ticks) => ticks.map((t) => +t.toFixed(2)) },
       ],
       series: [{}, { stroke: styled('--ink'), width: 1.5, points: { show: false }, spanGaps: false }],
@@ -79,9 +86,10 @@ export class Curve {
     ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
     ctx.clip();
     ctx.globalAlpha = Number(styled('--tint'));
+    const faint = styled('--faint');
     for (const segment of this.#visible()) {
       const left = u.valToPos(segment.start, 'x', true);
-      ctx.fillStyle = colourOf(segment.motion);
+      ctx.fillStyle = segment.discard ? faint : colourOf(segment.motion);
       ctx.fillRect(left, bbox.top, u.valToPos(segment.end, 'x', true) - left, bbox.height);
     }
     ctx.restore();
@@ -102,7 +110,7 @@ export class Curve {
     ctx.globalAlpha = Math.min(0.6, this.plot.width / visible.length / 40);
     for (const segment of visible) {
       if (segment.end >= this.#document.frames) continue;
-      ctx.setLineDash(segment.confidence < 0.5 ? [3 * ratio, 3 * ratio] : []);
+      ctx.setLineDash(segment.confidence !== null && segment.confidence < 0.5 ? [3 * ratio, 3 * ratio] : []);
       const x = Math.round(u.valToPos(segment.end, 'x', true)) + 0.5;
       ctx.beginPath();
       ctx.moveTo(x, bbox.top);

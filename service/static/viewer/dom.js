@@ -38,6 +38,14 @@ export function onceAFrame(action) {
   };
 }
 
+/** Scroll a list, and nothing around it, until a row of it is seen. The list is its rows' offset parent. */
+export function inView(list, row) {
+  const { scrollTop, clientHeight } = list;
+  if (!row || !clientHeight) return; // another list is shown
+  const top = row.offsetTop;
+  if (top < scrollTop || top + row.offsetHeight > scrollTop + clientHeight) list.scrollTop = top - clientHeight / 2;
+}
+
 /** A canvas made as sharp as the screen; answers its context, in CSS pixels, with its size. */
 export function sharp(canvas) {
   const { clientWidth: width, clientHeight: height } = canvas;

@@ -1,34 +1,72 @@
-// The list of segments: what, from where, how long. Every row is a button that goes there.
+// The list of segments: what, from where, how long. Every row is a button that goes there; one Tab stop for all.
 
-import { $, make } from './dom.js';
-import { duration, whole } from './numbers.js';
+import { countsFrom, shownFrame, shownInterval } from './counting.js';
+import { $, inView, make } from './dom.js';
+import { duration } from './numbers.js';
 import { swatch } from './palette.js';
+import { roving, stop } from './roving.js';
 
-/** Fill the list. `go(index)` is called when a row is chosen. Answers a function that marks the row that plays. */
-export function listed(document, go) {
-  const list = $('segments');
-  const rows = document.segments.map((segment, index) => {
-    const length = (segment.end - segment.start) / document.frame_rate;
-    const doubt = index + 1 < document.segments.length && segment.confidence < 0.5;
-    const row = make('button', { type: 'button', className: 'segment', onclick: () => go(index) },
+export class SegmentList {
+  #list = $('segments'); #rows = []; #document = null; #counted = 0; #go; #current = null;
+
+  /** `go(index)` is called when a row is chosen. */
+  constructor(go) { this.#go = go; }
+
+  /** Show a document. Rows whose segment is the same object stay as they are: an edit changes one or two. */
+  show(document) {
+    const before = this.#document?.segments || [];
+    const whole = before.length !== document.segments.length || this.#counted !== countsFrom();
+    this.#document = document;
+    this.#counted = countsFrom();
+    $('column-frames').textContent = this.#counted ? 'frames' : 'from';
+    if (whole) return this.#fill();
+    document.segments.forEach((segment, index) => {
+      if (segment === before[index]) return;
+      const row = this.#row(index);
+      row.tabIndex = this.#rows[index].tabIndex;
+      if (this.#rows[index] === window.document.activeElement) queueMicrotask(() => row.focus());
+      this.#rows[index].replaceWith(row);
+      if (this.#rows[index] === this.#current) this.#current = null;
+      this.#rows[index] = row;
+    });
+  }
+
+  /** Mark the row that plays, and keep it in view. */
+  mark(index) {
+    const row = this.#rows[index];
+    if (row === this.#current) return;
+    this.#current?.removeAttribute('aria-current');
+    this.#current = row;
+    if (!row) return;
+    row.setAttribute('aria-current', 'true');
+    inView(this.#list, row);
+  }
+
+  #fill() {
+    this.#rows = this.#document.segments.map((_, index) => this.#row(index));
+    this.#current = null;
+    this.#list.replaceChildren(...this.#rows.map((row) => make('li', {}, row)));
+    stop(this.#list, 'button');
+  }
+
+  #row(index) {
+    const segment = this.#document.segments[index];
+    const length = duration((segment.end - segment.start) / this.#document.frame_rate);
+    const last = index + 1 === this.#document.segments.length;
+    const doubt = !last && segment.confidence !== null && segment.confidence < 0.5;
+    const place = this.#counted ? shownInterval(segment.start, segment.end) : shownFrame(segment.start);
+    const row = make('button', { type: 'button', className: 'segment', tabIndex: -1, onclick: () => this.#go(index) },
       swatch(segment.motion),
       make('span', { className: 'name' }, segment.name),
-      make('span', { className: 'from' }, whole(segment.start)),
-      make('span', { className: 'long' }, duration(length)),
-      doubt ? make('span', { className: 'doubt', title: 'The method is in doubt about where this ends' }, '?') : null);
-    row.setAttribute('aria-label',
-      `Motion ${segment.name}, from frame ${segment.start}, ${duration(length)}${doubt ? ', doubtful end' : ''}`);
+      make('span', { className: 'from' }, place),
+      make('span', { className: 'long' }, length),
+      make('span', { className: 'marks' }, segment.loop ? '↻' : '', doubt ? make('b', { title: 'The method is in doubt about where this ends' }, '?') : ''));
+    row.classList.toggle('discarded', Boolean(segment.discard));
+    row.setAttribute('aria-label', [`Motion ${segment.name}`, `${this.#counted ? 'frames' : 'from frame'} ${place}`, length,
+      segment.loop && 'loops', segment.discard && 'discarded', doubt && 'doubtful end'].filter(Boolean).join(', '));
     return row;
-  });
-  list.replaceChildren(...rows.map((row) => make('li', {}, row)));
-  let current = null;
-  return (index) => {
-    if (rows[index] === current) return;
-    current?.removeAttribute('aria-current');
-    current = rows[index];
-    current?.setAttribute('aria-current', 'true');
-    const { scrollTop, clientHeight } = list;
-    const top = current ? current.offsetTop : scrollTop; // the list is the rows' offset parent
-    if (top < scrollTop || top + 36 > scrollTop + clientHeight) list.scrollTop = top - clientHeight / 2;
-  };
+  }
 }
+
+/** Wire the list once. */
+export const segmentList = () => roving($('segments'), 'button');

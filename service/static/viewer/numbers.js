@@ -20,3 +20,8 @@ export const clock = (seconds) => {
 export const rate = (fps) => `${Number(fps.toFixed(3))} frames/s`;
 
 export const count = (n, one, many = `${one}s`) => `${whole(n)} ${n === 1 ? one : many}`;
+
+/** One line about a take, for the top of the page. */
+export const about = (document) => [
+  document.source.name, count(document.frames, 'frame'), rate(document.frame_rate), duration(document.duration_seconds),
+].filter(Boolean).join(' · ');

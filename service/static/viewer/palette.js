@@ -62,3 +62,10 @@ export function swatch(motion) {
   mark.style.color = inkOn(colourOf(motion));
   return mark;
 }
+
+/** Write a segment's name into an element, on its motion's colour. */
+export function tagged(element, segment) {
+  element.textContent = segment.name;
+  element.style.background = colourOf(segment.motion);
+  element.style.color = inkOn(colourOf(segment.motion));
+}

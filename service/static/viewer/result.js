@@ -1,103 +1,75 @@
-// A result on screen: the curve, the timeline, the list and the figure, tied together by one clock and one span.
+// A result on screen: the curve, the timeline, the lists and the figure, tied together by one clock and one span.
 
-import * as api from './api.js';
 import { Clock } from './clock.js';
-import { note, reflect } from './controls.js';
+import { reflect } from './controls.js';
+import { numberOf, onCounting, shownFrame } from './counting.js';
 import { Curve } from './curve.js';
 import { $, make } from './dom.js';
-import { listed } from './motions.js';
-import { clock as clockTime, count, duration, rate, whole } from './numbers.js';
-import { colourOf, inkOn } from './palette.js';
-import { HEAT } from './heat.js';
+import { Editor } from './editor.js';
+import { SegmentList } from './motions.js';
+import { clock as clockTime, count, whole } from './numbers.js';
+import { captions } from './pair.js';
+import { tagged } from './palette.js';
+import { Presence } from './presence.js';
+import { Review } from './review.js';
 import { Span } from './span.js';
 import { Timeline } from './timeline.js';
 import { tracks } from './tracks.js';
 
-let stage = null; // one for the page: a browser gives out few WebGL contexts
-
-const LATE = 250; // ms after which a wait for blocks is said
-
 export class Result {
-  #gone = new AbortController(); #stage = null; #wanted = null; #mark; #place; #segment = -1; #look = 'strain'; #late = 0; #ends = [];
+  #gone = new AbortController(); #place; #segment = -1; #ends = []; #list; #listener; #work = null;
 
-  /** Lay out `document` for the first time. */
-  constructor(document) {
+  /** Lay out `document` for the first time; `newest` is its newest revision. `onChange()` hears of every edit. */
+  constructor(document, newest, onChange) {
     const { signal } = this.#gone;
-    this.clock = new Clock(document.frames, document.frame_rate, (frame) => this.#ready(frame));
+    this.#listener = onChange;
+    this.presence = new Presence(() => this.#moments(), signal);
+    this.clock = new Clock(document.frames, document.frame_rate, (frame) => this.presence.ready(frame));
     this.clock.speed = Number($('speed').value);
     this.span = new Span(document.frames);
+    this.#list = new SegmentList((index) => this.go(index));
     this.#take(document);
     this.curve = new Curve($('curve'), document, this.span, signal);
-    const plot = () => this.curve.plot;
-    this.timeline = new Timeline($('timeline'), document, this.span, plot, signal);
-    this.#place = tracks({
-      span: this.span, clock: this.clock, plot,
-      segmentAt: (frame) => this.document.segments[this.indexAt(frame)],
-      seconds: (frame) => this.#seconds(frame),
-      signal,
-    });
-    this.#say(document);
-    this.clock.listen(() => this.#moment());
-    this.#moment();
+    this.timeline = new Timeline($('timeline'), document, this.span, () => this.curve.plot, signal);
+    this.#place = tracks(this, signal);
+    this.#open(document, newest);
+    this.clock.listen(() => (this.#hasLeftCut() ? this.editor.select(-1) : this.#moment()));
+    onCounting(() => this.#recount(), signal);
   }
 
   /** Another cut of the same take: everything but the figure, the moment and the zoom changes. */
-  show(document) {
+  show(document, newest) {
+    this.clock.loop = null;
     this.#take(document);
     this.curve.show(document);
     this.timeline.show(document);
-    this.#say(document);
-    this.clock.loop = null;
+    this.#open(document, newest);
+  }
+
+  /** The same result with edited segments. */
+  edited(document) {
+    this.#take(document);
+    this.curve.edited(document);
+    this.timeline.show(document);
+    this.#list.show(document);
+    this.#summary();
+    this.#moment();
+  }
+
+  /** A cut was selected, or let go of (-1). */
+  selected(cut) {
+    document.body.classList.toggle('cut-selected', cut >= 0);
+    if (cut >= 0) $('edit').scrollLeft = $('cut-before').offsetLeft - $('edit').offsetLeft; // on a phone the row is wider than the screen
     this.#moment();
   }
 
   /** Leave the page to another take. */
   close() {
     this.clock.toggle(false);
+    this.editor.close();
+    captions(null);
+    this.#work.abort();
     this.#gone.abort();
-    this.#stage?.clear();
-    this.#stage = null;
-  }
-
-  /** Bring the figure onto the stage; without it the rest of the page works all the same. */
-  async figure() {
-    try {
-      this.#tell('Loading the figure …');
-      const viewer = await api.viewer(this.document.id);
-      const { Stage } = await import('./stage.js');
-      stage ||= new Stage($('figure'));
-      await stage.show(viewer, this.#gone.signal, (share) => this.#tell(`Loading the figure … ${Math.round(100 * share)} %`));
-      if (this.#gone.signal.aborted) return;
-      this.#stage = stage;
-      this.#tell('');
-      $('upright').hidden = viewer.kind !== 'vertices';
-      this.#offerStrain(this.#stage.strain.present);
-      this.#stage.canvas.dataset.shown = viewer.kind;
-      this.#moment();
-    } catch (problem) {
-      if (this.#gone.signal.aborted) return;
-      this.#tell(problem.document?.code === 'not-finished'
-        ? 'The figure is still being prepared.' : `The figure cannot be shown: ${problem.message}`);
-      if (problem.document?.code === 'not-finished') setTimeout(() => this.figure(), 1500);
-    }
-  }
-
-  get stage() { return this.#stage; }
-
-  look(choice) {
-    this.#look = choice;
-    $('heat').classList.toggle('off', choice !== 'strain');
-    this.#moment();
-  }
-
-  /** Without strain to show (joints alone, or rigid parts) the motions colour the figure. */
-  #offerStrain(present) {
-    const choice = (look) => document.querySelector(`#looks [value=${look}]`);
-    choice('strain').parentElement.hidden = $('heat').hidden = !present;
-    if (!present && choice('strain').checked) {
-      choice('motion').checked = true;
-      this.#look = 'motion';
-    }
   }
 
   /** The segment a frame is in. */
@@ -111,15 +83,22 @@ export class Result {
     return low;
   }
 
+  /** How many segments are on screen. */
+  visible() { return this.indexAt(this.span.to) - this.indexAt(this.span.from) + 1; }
+
+  /** Seconds of a frame on the file's own clock. */
+  seconds(frame) { return this.document.source.start_seconds + frame / this.document.frame_rate; }
+
   go(index) {
     const segment = this.document.segments[index];
     if (!segment) return;
+    this.editor.select(-1);
     this.clock.seek(segment.start);
     if ($('loop').checked) this.clock.loop = [segment.start, segment.end];
     this.span.reveal(segment.start);
   }
 
-  /** To the cut before or after. Going back from within a segment goes to its own start first. */
+  /** To the segment before or after. Going back from within one goes to its own start first. */
   jump(by) {
     const index = this.indexAt(this.clock.frame);
     const started = this.clock.frame - this.document.segments[index].start > this.clock.rate / 2;
@@ -137,99 +116,94 @@ export class Result {
     this.#segment = -1;
   }
 
-  #seconds(frame) { return this.document.source.start_seconds + frame / this.document.frame_rate; }
-
-  /** Clips are made at the first request: wait until they are there, then let the browser save them. */
-  async #saveClips(event, id) {
-    event.preventDefault();
-    note('Writing the clips…');
-    try {
-      while (!(await api.clipsReady(id)));
-      note('');
-      window.location.assign(api.clips(id));
-    } catch (problem) {
-      note(problem.message);
-    }
+  /** Begin to edit a document; what was worked on before is over. */
+  #open(document, newest) {
+    this.#work?.abort();
+    this.#work = new AbortController();
+    this.editor?.close();
+    this.editor = new Editor(this, { newest, onChange: () => { this.review.show(); this.#place(); this.#listener(); } });
+    this.review = new Review(document.id, this.editor, this.clock, this.span, this.#work.signal);
+    this.#say(document);
+    this.review.show();
+    this.selected(-1);
+    this.#listener();
   }
 
   /** What does not move: counts, lists, links. */
   #say(document) {
     $('frames').textContent = whole(document.frames);
     $('frame').size = Math.max(3, String(document.frames).length);
+    $('cut-frame').size = $('frame').size;
     $('timeline').setAttribute('aria-valuemax', document.frames - 1);
-    $('summary').textContent = `${count(document.motions, 'motion')} · ${count(document.segments.length, 'segment')}`;
-    this.#mark = listed(document, (index) => this.go(index));
-    for (const link of $('downloads').querySelectorAll('a[data-form]')) {
-      link.href = api.download(document.id, link.dataset.form);
-      link.download = `${document.id}.${link.dataset.form}`;
-    }
-    $('clips').href = api.clips(document.id);
-    $('clips').onclick = (event) => this.#saveClips(event, document.id);
+    this.#list.show(document);
+    this.#summary();
     const warnings = $('warnings');
     warnings.hidden = !document.warnings.length;
     warnings.querySelector('summary').textContent = count(document.warnings.length, 'thing to know', 'things to know');
     warnings.querySelector('ul').replaceChildren(...document.warnings.map((warning) => make('li', {}, warning.detail)));
     reflect(document);
-    note('');
+  }
+
+  #summary() {
+    const { motions, segments } = this.document;
+    $('summary').textContent = `${count(motions, 'motion')} · ${count(segments.length, 'segment')}`;
+  }
+
+  /** Numbers are counted the other way. */
+  #recount() {
+    this.#list.show(this.document);
+    this.curve.refresh();
+    this.#moment();
+  }
+
+  /** What the figure shows: the moment, or the two sides of the selected cut. */
+  #moments() {
+    const { clock, editor } = this;
+    const { segments } = this.document;
+    if (editor?.cut >= 0 && !clock.playing) {
+      const [before, after] = [segments[editor.cut], segments[editor.cut + 1]];
+      return [{ position: before.end - 1, motion: before.motion }, { position: after.start, motion: after.motion }];
+    }
+    // Paused: the frame's own pose. Playing: between two frames too, so that it is smooth on a fast screen.
+    return [{ position: clock.playing ? clock.position : clock.frame, motion: segments[this.indexAt(clock.frame)].motion }];
+  }
+
+  /** Whether the moment has gone elsewhere than the selected cut. Playing around it is not leaving it. */
+  #hasLeftCut() {
+    const { cut } = this.editor;
+    return cut >= 0 && !this.clock.playing && this.clock.frame !== this.document.segments[cut].end;
   }
 
   /** What moves with the clock. */
   #moment() {
-    const { clock } = this;
-    const frame = clock.frame;
+    const { clock, editor } = this;
+    const { frame } = clock;
     const index = this.indexAt(frame);
+    const cut = editor?.cut ?? -1;
     if (clock.playing) this.#follow(frame);
-    if (!clock.loop && $('loop').checked) this.loop(true);
+    if (!clock.loop && !clock.until && $('loop').checked) this.loop(true);
     this.#place();
     const field = $('frame');
-    if (field !== window.document.activeElement) field.value = frame;
-    $('seconds').textContent = clockTime(this.#seconds(frame));
+    if (field !== window.document.activeElement) field.value = numberOf(frame);
+    $('seconds').textContent = clockTime(this.seconds(frame));
     const energy = this.document.energy[frame];
     $('nats').textContent = energy === null || energy === undefined ? '' : `${energy.toFixed(3)} nats`;
     document.body.classList.toggle('playing', clock.playing);
+    $('play').setAttribute('aria-label', clock.playing ? 'Pause' : 'Play');
     if (index !== this.#segment) this.#enter(index);
+    const two = cut >= 0 && !clock.playing;
+    captions(...(two ? [this.document.segments[cut], this.document.segments[cut + 1]] : [null]));
     $('timeline').setAttribute('aria-valuenow', frame);
-    $('timeline').setAttribute('aria-valuetext', `frame ${frame}, motion ${this.document.segments[index].name}`);
-    if (!this.#stage?.figure) return;
-    const colour = this.#look === 'motion' ? colourOf(this.document.segments[index].motion) : this.#look === 'strain' ? 'strain' : null;
-    this.#stage.strain.look(colour);
-    // Paused: the frame's own pose. Playing: between two frames too, so that it is smooth on a fast screen.
-    this.#show(clock.playing ? clock.position : frame);
+    $('timeline').setAttribute('aria-valuetext', `frame ${shownFrame(frame)}, motion ${this.document.segments[index].name}`);
+    this.presence.show();
   }
-
-  #show(position) {
-    const frame = Math.floor(position);
-    const { figure, strain } = this.#stage;
-    this.#wanted = frame;
-    const here = figure.ready(frame);
-    const coloured = this.#stage.pose(position);
-    if (here && coloured) return this.#arrived();
-    this.#late ||= setTimeout(() => this.#tell('Loading …'), LATE);
-    // What was scrubbed past meanwhile is of no interest any more.
-    Promise.all([figure.fetch(frame), strain.fetch(frame)]).then(
-      () => frame === this.#wanted && this.#show(position),
-      () => frame === this.#wanted && this.#tell('This part of the take cannot be loaded.'),
-    );
-  }
-
-  #arrived() {
-    if (!this.#late) return;
-    clearTimeout(this.#late);
-    this.#late = 0;
-    this.#tell('');
-  }
-
-  #ready(frame) { return !this.#stage?.figure || this.#stage.figure.ready(frame); }
 
   #enter(index) {
     this.#segment = index;
-    const segment = this.document.segments[index];
-    this.#mark(index);
+    this.#list.mark(index);
     this.timeline.mark(index);
-    const tag = $('now-motion');
-    tag.textContent = segment.name;
-    tag.style.background = colourOf(segment.motion);
-    tag.style.color = inkOn(colourOf(segment.motion));
+    tagged($('now-motion'), this.document.segments[index]);
+    this.#listener();
   }
 
   /** While it plays, the span moves on by pages: a curve that crawls cannot be read. */
@@ -238,24 +212,4 @@ export class Result {
     if (frame >= span.to - 1 && span.to < span.frames) span.set(frame, frame + span.length);
     else if (frame < span.from) span.set(frame, frame + span.length);
   }
-
-  #tell(sentence) {
-    $('stage-note').textContent = sentence;
-    $('stage-note').hidden = !sentence;
-  }
-}
-
-/** One line about the take, for the top of the page. */
-export const about = (document) => [
-  document.source.name, count(document.frames, 'frame'), rate(document.frame_rate), duration(document.duration_seconds),
-].filter(Boolean).join(' · ');
-
-/** The key to the heat colours. */
-export function drawHeatKey() {
-  const canvas = $('heat').querySelector('canvas');
-  const context = canvas.getContext('2d');
-  const ramp = context.createLinearGradient(0, 0, canvas.width, 0);
-  HEAT.forEach((colour, i) => ramp.addColorStop(i / (HEAT.length - 1), colour));
-  context.fillStyle = ramp;
-  context.fillRect(0, 0, canvas.width, 1);
 }

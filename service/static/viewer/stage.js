@@ -1,25 +1,25 @@
-// The 3D view: camera, light, floor and one figure. Draws only when something changed.
+// The 3D view: camera, light, floor and one figure, at one moment or at two side by side. Draws only when something changed.
 
-import { DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
+import { DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { onResize, onTheme, styled } from './dom.js';
 import { gltfFigure } from './figure_gltf.js';
 import { verticesFigure } from './figure_vertices.js';
 import { Floor } from './floor.js';
+import { rendererOn } from './renderer.js';
 import { Strain } from './strain.js';
 
 export class Stage {
   #renderer; #scene = new Scene(); #camera = new PerspectiveCamera(32, 1, 0.01, 1000); #orbit; #floor = new Floor();
   #key = new DirectionalLight(0xfff4e6, 1.7); #rim = new DirectionalLight(0xcfe0ff, 0.9); #asked = false;
-  #middle = new Vector3(); #last = new Vector3(); #step = new Vector3();
+  #middle = new Vector3(); #last = new Vector3(); #step = new Vector3(); #moments = []; #size = { width: 1, height: 1 };
 
   constructor(canvas) {
     this.canvas = canvas;
     this.figure = null;
     this.strain = new Strain();
     this.following = true;
-    this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
-    this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.#renderer = rendererOn(canvas);
     this.#scene.add(new HemisphereLight(0xffffff, 0xb5aa9a, 1.9), this.#key, this.#rim, this.#camera, this.#floor.object);
     this.#scene.add(this.#key.target, this.#rim.target);
     this.#orbit = new OrbitControls(this.#camera, canvas);
@@ -51,23 +51,22 @@ export class Stage {
     this.figure.dispose();
     this.strain.dispose();
     this.figure = null;
+    this.#moments = [];
     this.draw();
   }
 
-  /** Show a moment. Answers false where its strain is still on the way. */
-  pose(position) {
-    if (!this.figure) return true;
-    this.figure.pose(position);
-    const coloured = this.strain.show(Math.floor(position));
-    this.figure.centre(this.#middle);
-    if (this.following) {
-      this.#step.subVectors(this.#middle, this.#last).setY(0); // a jump should look like one
-      this.#orbit.target.add(this.#step);
-      this.#camera.position.add(this.#step);
-    }
-    this.#last.copy(this.#middle);
+  /**
+   * Show moments, one or two side by side: `{ position, look }` each, in frames and as in `Strain.look`. They are posed
+   * when they are drawn, so that of many in one screen frame only the last costs anything. Answers null, or a promise
+   * of what had to be fetched first.
+   */
+  pose(moments) {
+    this.#moments = moments;
     this.draw();
-    return coloured;
+    const missing = moments.map(({ position, look }) => [Math.floor(position), look === 'strain'])
+      .filter(([frame, heated]) => !this.figure.ready(frame) || (heated && !this.strain.ready(frame)));
+    if (!missing.length) return null;
+    return Promise.all(missing.flatMap(([frame]) => [this.figure.fetch(frame), this.strain.fetch(frame)]));
   }
 
   /** Stand back until the whole figure is seen, a little from the side and above. */
@@ -77,7 +76,7 @@ export class Stage {
     const size = box.getSize(new Vector3());
     const centre = box.getCenter(new Vector3());
     const radius = size.length() / 2 || 1;
-    const aspect = Math.min(1, this.#camera.aspect);
+    const aspect = Math.min(1, this.#size.width / this.#size.height);
     const distance = (radius * 0.97) / Math.sin((this.#camera.fov * Math.PI) / 360) / aspect;
     this.#camera.position.copy(centre).addScaledVector(new Vector3(0.62, 0.26, 0.74).normalize(), distance);
     this.#camera.near = distance / 200;
@@ -108,6 +107,30 @@ export class Stage {
   }
 
   #render() {
+    const { width, height } = this.#size;
+    const share = Math.max(1, this.#moments.length);
+    this.#camera.aspect = width / share / height;
+    // Half a stage is narrower, so what is on it is drawn smaller: as much of the figure is seen as on the whole.
+    this.#camera.zoom = Math.min(1, this.#camera.aspect) / Math.min(1, width / height);
+    this.#camera.updateProjectionMatrix();
+    this.#renderer.setScissorTest(share > 1);
+    for (let place = 0; place < share; place++) {
+      this.#act(this.#moments[place], place === 0);
+      this.#renderer.setViewport((place * width) / share, 0, width / share, height);
+      this.#renderer.setScissor((place * width) / share, 0, width / share, height);
+      this.#renderer.render(this.#scene, this.#camera);
+    }
+  }
+
+  /** Pose and colour the figure; light and floor go with it, and with the first moment the camera. */
+  #act(moment, first) {
+    if (this.figure && moment) {
+      this.figure.pose(moment.position);
+      this.strain.look(moment.look);
+      this.strain.show(Math.floor(moment.position));
+      this.figure.centre(this.#middle);
+      if (first) this.#follow();
+    }
     const { target } = this.#orbit;
     this.#floor.follow(target, this.#middle);
     // The key light stands over the viewer's left shoulder, so that no side of the figure is ever left in the dark.
@@ -115,15 +138,23 @@ export class Stage {
     this.#key.position.set(-0.5, 0.9, 0.6).applyQuaternion(this.#camera.quaternion).add(target);
     this.#rim.target.position.copy(target);
     this.#rim.position.set(0.9, 0.5, -0.8).applyQuaternion(this.#camera.quaternion).add(target);
-    this.#renderer.render(this.#scene, this.#camera);
+  }
+
+  #follow() {
+    if (this.following) {
+      this.#step.subVectors(this.#middle, this.#last).setY(0); // a jump should look like one
+      this.#orbit.target.add(this.#step);
+      this.#camera.position.add(this.#step);
+    }
+    this.#last.copy(this.#middle);
   }
 
   #fit() {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
     if (!width || !height) return;
+    this.#size = { width, height };
     this.#renderer.setSize(width, height, false);
     this.#camera.aspect = width / height;
-    this.#camera.updateProjectionMatrix();
     this.draw();
   }
 

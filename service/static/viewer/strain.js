@@ -28,7 +28,7 @@ vec3 heatOf(float s) {
 `;
 
 export class Strain {
-  #file = null;
+  #file = null; #shown = -1;
 
   constructor() {
     this.uniforms = {
@@ -68,16 +68,19 @@ export class Strain {
     return material;
   }
 
-  /** Show a frame; false while its block is on the way (the last one stays). */
+  /** Whether a frame can be shown without waiting. */
+  ready(frame) { return !this.#file || this.#file.has(frame); }
+
+  /** Show a frame; while its block is on the way the last one stays. */
   show(frame) {
-    if (!this.#file || !this.uniforms.heated.value) return true;
+    if (!this.#file || !this.uniforms.heated.value || frame === this.#shown) return;
     const values = this.#file.peek(frame);
-    if (!values) return false;
+    if (!values) return;
+    this.#shown = frame;
     const map = this.uniforms.strainMap.value;
     map.image.data.set(values);
     map.needsUpdate = true;
     this.#file.ahead(frame);
-    return true;
   }
 
   fetch(frame) { return this.#file ? this.#file.fetch(frame) : Promise.resolve(); }

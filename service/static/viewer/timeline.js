@@ -56,7 +56,7 @@ export class Timeline {
     const here = index === this.#current;
     const top = here ? 0 : 4;
     context.fillStyle = fillOf(segment.motion, context);
-    context.globalAlpha = this.#current < 0 || here ? 1 : 0.82;
+    context.globalAlpha = segment.discard ? 0.3 : this.#current < 0 || here ? 1 : 0.82;
     context.fillRect(left + gap / 2, top, Math.max(0.5, wide - gap), height - 2 * top);
     context.globalAlpha = 1;
     this.#label(context, segment, left, right, height);
@@ -65,7 +65,8 @@ export class Timeline {
   #label(context, segment, left, right, height) {
     const from = Math.max(left, this.#plot().left);
     const room = Math.min(right, this.#plot().left + this.#plot().width) - from;
-    const size = context.measureText(segment.name).width;
+    const text = `${segment.name}${segment.loop ? ' ↻' : ''}`;
+    const size = context.measureText(text).width;
     if (room < size + 8) return;
     const colour = colourOf(segment.motion);
     const x = from + Math.min(8, (room - size) / 2);
@@ -73,7 +74,7 @@ export class Timeline {
       context.fillStyle = colour;
       context.fillRect(x - 3, height / 2 - 8, size + 6, 16);
     }
-    context.fillStyle = inkOn(colour);
-    context.fillText(segment.name, x, height / 2 + 0.5);
+    context.fillStyle = segment.discard ? styled('--ink') : inkOn(colour);
+    context.fillText(text, x, height / 2 + 0.5);
   }
 }

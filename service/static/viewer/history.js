@@ -1,0 +1,36 @@
+// Undo and redo over values that never change in place.
+
+export class History {
+  #past = []; #future = []; #key = null;
+
+  constructor(present) { this.present = present; }
+
+  get canUndo() { return this.#past.length > 0; }
+
+  get canRedo() { return this.#future.length > 0; }
+
+  /** Go on to `next`. Steps in a row with the same `key` (a cut nudged five times) are undone as one. */
+  push(next, key = null) {
+    if (next === this.present) return false;
+    if (key === null || key !== this.#key) this.#past.push(this.present);
+    this.#key = key;
+    this.#future = [];
+    this.present = next;
+    return true;
+  }
+
+  /** The next push is a step of its own, whatever its key. */
+  settle() { this.#key = null; }
+
+  undo() { return this.#step(this.#past, this.#future); }
+
+  redo() { return this.#step(this.#future, this.#past); }
+
+  #step(from, to) {
+    if (!from.length) return false;
+    to.push(this.present);
+    this.present = from.pop();
+    this.#key = null;
+    return true;
+  }
+}

@@ -1,0 +1,23 @@
+// The WebGL renderer, as fine as this machine draws it smoothly: without a graphics card there is no anti-aliasing,
+// and a pixel is a pixel.
+
+import { WebGLRenderer } from 'three';
+
+const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
+const FINEST = 2; // pixels to a CSS pixel; more is not seen
+
+export function rendererOn(canvas) {
+  const slow = drawnBySoftware();
+  const renderer = new WebGLRenderer({ canvas, antialias: !slow, alpha: true, stencil: false });
+  renderer.setPixelRatio(slow ? 1 : Math.min(devicePixelRatio, FINEST));
+  return renderer;
+}
+
+function drawnBySoftware() {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  if (!gl) return false; // the renderer itself will say what is missing
+  const names = gl.getExtension('WEBGL_debug_renderer_info');
+  const name = gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
+  gl.getExtension('WEBGL_lose_context')?.loseContext();
+  return SOFTWARE.test(name);
+}

@@ -1,0 +1,39 @@
+// What was kept, newest first, down to the result as computed. Any of them can be shown, and edited from there.
+
+import * as api from './api.js';
+import { $, make } from './dom.js';
+import { roving, stop } from './roving.js';
+
+const JUST = 45; // seconds that are still "just now"
+const STEPS = [['minute', 60], ['hour', 3600], ['day', 86400]];
+const AGO = new Intl.RelativeTimeFormat('en', { numeric: 'auto' });
+
+let asked = 0;
+
+/** List the revisions of a result and mark the one `shown`. `open(number)` is called for the one chosen. */
+export async function showRevisions(id, shown, open) {
+  const turn = ++asked;
+  const answer = await api.revisions(id).catch(() => null);
+  if (turn !== asked) return; // an older answer that came later
+  const kept = answer?.revisions || [{ revision: 0, created: null, note: '' }];
+  const rows = kept.toReversed().map(({ revision, created, note }) => {
+    const row = make('button', { type: 'button', className: 'revision', tabIndex: -1, onclick: () => open(revision) },
+      make('span', { className: 'name' }, revision ? `Revision ${revision}` : 'Computed result'),
+      make('span', { className: 'ago' }, created ? ago(created) : ''),
+      note ? make('span', { className: 'note-line' }, note) : null);
+    if (revision === shown) row.setAttribute('aria-current', 'true');
+    return make('li', {}, row);
+  });
+  $('revisions').replaceChildren(...rows);
+  stop($('revisions'), 'button');
+}
+
+/** Wire the list once. */
+export const revisionList = () => roving($('revisions'), 'button');
+
+function ago(created) {
+  const seconds = Date.now() / 1000 - created;
+  if (seconds < JUST) return 'just now';
+  const [unit, size] = STEPS.findLast(([, length]) => seconds >= length) || STEPS[0];
+  return AGO.format(-Math.max(1, Math.round(seconds / size)), unit);
+}

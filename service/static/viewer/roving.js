@@ -1,0 +1,29 @@
+// A list that is one stop of the Tab key: arrows move within it.
+
+/** Wire `container`: of the elements `selector` finds, one can be tabbed to; arrows, Home and End move it. */
+export function roving(container, selector, { horizontal = false } = {}) {
+  const [back, on] = horizontal ? ['ArrowLeft', 'ArrowRight'] : ['ArrowUp', 'ArrowDown'];
+  const items = () => [...container.querySelectorAll(selector)];
+  container.addEventListener('keydown', (event) => {
+    const list = items();
+    const at = list.indexOf(event.target.closest(selector));
+    if (at < 0) return;
+    const to = { [back]: at - 1, [on]: at + 1, Home: 0, End: list.length - 1 }[event.key];
+    if (to === undefined) return;
+    event.preventDefault();
+    event.stopPropagation(); // the page's own arrows step frames
+    const next = list[Math.max(0, Math.min(list.length - 1, to))];
+    stop(container, selector, next);
+    next.focus();
+  });
+  container.addEventListener('focusin', (event) => {
+    const item = event.target.closest(selector);
+    if (item) stop(container, selector, item);
+  });
+}
+
+/** Make `item` the one that the Tab key stops at; without it, the first. */
+export function stop(container, selector, item = container.querySelector(selector)) {
+  for (const other of container.querySelectorAll(`${selector}[tabindex="0"]`)) if (other !== item) other.tabIndex = -1;
+  if (item) item.tabIndex = 0;
+}

@@ -1,0 +1,100 @@
+// What a person may do to a list of segments. Pure: every edit answers a new list, or the same one where nothing changes.
+//
+// A list tiles the take: segment i+1 starts where i ends. Cut i is where segment i ends; the last has none. The
+// confidence of a segment is that of its cut: null once a person has placed it. `repeats` hold until an end moves.
+
+const LETTERS = 26;
+
+/** The same segments with motions numbered in order of first appearance, as the service numbers them. */
+export function renumbered(segments) {
+  const numbers = new Map();
+  for (const { motion } of segments) if (!numbers.has(motion)) numbers.set(motion, numbers.size);
+  return segments.map((segment) => ({ ...segment, motion: numbers.get(segment.motion) }));
+}
+
+/** Put cut `index` at `frame`, as far as its neighbours leave each side a frame. */
+export function moveCut(segments, index, frame) {
+  const before = segments[index];
+  const after = segments[index + 1];
+  if (!after) return segments;
+  const place = Math.max(before.start + 1, Math.min(after.end - 1, Math.round(frame)));
+  if (place === before.end) return segments;
+  return replaced(segments, index, 2, { ...before, end: place, confidence: null, repeats: [] }, { ...after, start: place, repeats: [] });
+}
+
+/** Take cut `index` away. What remains is the motion before it, or the one after it. */
+export function mergeCut(segments, index, after = false) {
+  const [left, right] = [segments[index], segments[index + 1]];
+  if (!right) return segments;
+  const kept = after ? right : left;
+  const whole = { ...kept, start: left.start, end: right.end, confidence: right.confidence, repeats: [] };
+  return renumbered(replaced(segments, index, 2, whole));
+}
+
+/** Cut at `frame`, which begins the second half. Both halves stay the motion they were. */
+export function split(segments, frame) {
+  const index = segments.findIndex((segment) => frame > segment.start && frame < segment.end);
+  if (index < 0) return segments;
+  const whole = segments[index];
+  return replaced(segments, index, 1,
+    { ...whole, end: frame, confidence: null, repeats: [] }, { ...whole, start: frame, repeats: [] });
+}
+
+/** Call a motion `name` everywhere. The name of another motion joins the two. */
+export function renameMotion(segments, motion, name) {
+  const called = name.trim();
+  const current = segments.find((segment) => segment.motion === motion);
+  if (!called || !current || current.name === called) return segments;
+  const other = segments.find((segment) => segment.name === called);
+  const becomes = other ? other.motion : motion;
+  return renumbered(segments.map((segment) => (segment.motion === motion ? { ...segment, motion: becomes, name: called } : segment)));
+}
+
+/** Make one segment another motion; null makes it one of its own. */
+export function giveMotion(segments, index, motion) {
+  if (segments[index].motion === motion) return segments;
+  const known = segments.find((segment) => segment.motion === motion);
+  const name = known ? known.name : freeName(segments);
+  const number = known ? motion : 1 + Math.max(...segments.map((segment) => segment.motion));
+  return renumbered(replaced(segments, index, 1, { ...segments[index], motion: number, name }));
+}
+
+/** Set `loop` or `discard` of one segment. */
+export function mark(segments, index, flag, on) {
+  if (Boolean(segments[index][flag]) === on) return segments;
+  return replaced(segments, index, 1, { ...segments[index], [flag]: on });
+}
+
+/** A result as it reads with other segments: key-frames are of the motion they are in now. */
+export function readWith(document, segments) {
+  let place = 0;
+  const keys = document.key_frames.map((key) => {
+    while (segments[place].end <= key.frame) place += 1;
+    return key.motion === segments[place].motion ? key : { ...key, motion: segments[place].motion };
+  });
+  return { ...document, segments, key_frames: keys, motions: motionsOf(segments).length };
+}
+
+/** The motions there are, each once, in order. */
+export function motionsOf(segments) {
+  const seen = new Map();
+  for (const { motion, name } of segments) if (!seen.has(motion)) seen.set(motion, { motion, name });
+  return [...seen.values()];
+}
+
+/** Whether two lists say the same, of what is kept by the service. */
+export const same = (one, other) => one === other || (one.length === other.length && one.every((segment, i) =>
+  segment.end === other[i].end && segment.name === other[i].name && segment.motion === other[i].motion
+  && Boolean(segment.loop) === Boolean(other[i].loop) && Boolean(segment.discard) === Boolean(other[i].discard)));
+
+/** The first of A, B, …, Z, AA, … that no motion is called. */
+function freeName(segments) {
+  const taken = new Set(segments.map((segment) => segment.name));
+  for (let number = 0; ; number++) {
+    let name = '';
+    for (let left = number; left >= 0; left = Math.floor(left / LETTERS) - 1) name = String.fromCharCode(65 + (left % LETTERS)) + name;
+    if (!taken.has(name)) return name;
+  }
+}
+
+const replaced = (segments, index, count, ...others) => [...segments.slice(0, index), ...others, ...segments.slice(index + count)];
