@@ -49,7 +49,9 @@ class Body:
                 code="no-mesh-skeleton",
                 detail="There is no mesh: the motions are those of the joints, by their distances from each other.",
             )
-            return cls(PairStrain.of(pairs), NO_PATCHES, pairs), (notice,)
+            limbs = PairStrain.of_limbs(pairs)
+            each = PatchMeans.of(np.arange(limbs.columns), np.ones(limbs.columns))
+            return cls(limbs, each, pairs), (notice,)
         patch = patch_of_triangles(rest, triangles)
         order = coherent_order(rest, triangles, TILE)
         strain = TriangleStrain.of(rest, triangles, order, parameters.strain, parameters.scale_invariant)

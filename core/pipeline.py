@@ -46,7 +46,7 @@ def analyse(
         rest = rest_shape(animation, parameters.rest)
         body, notices = Body.of(animation, rest, parameters)
         take = survey(animation, body, threads=threads, progress=progress, memory_bytes=memory_bytes)
-        if not take.strains and take.bends and len(animation.triangles):
+        if not take.strains and take.bends:
             body = body.by_pairs()
             take = survey(animation, body, threads=threads, progress=progress, memory_bytes=memory_bytes)
         share = take.share_above_noise if take.strains else 0.0

@@ -13,6 +13,9 @@ from jaxtyping import Float32, Int
 from core.descriptors.pair_distances import PairDistances
 from core.descriptors.strain import ROUNDING
 
+LIMB = (0.06, 0.3)
+"""Shares of the body's size that the ends of a limb's joint are apart: not as near as fingers, nor across the body."""
+
 LEAST = np.float32(1e-3)
 """The least stretch: a distance below a thousandth of that at rest counts as a thousandth."""
 
@@ -35,6 +38,16 @@ class PairStrain:
     def columns(self) -> int:
         """How many pairs there are."""
         return len(self.first)
+
+    @classmethod
+    def of_limbs(cls, pairs: PairDistances) -> "PairStrain":
+        """The pairs across one joint or two, as far apart at rest as `LIMB` says; all where there are none.
+
+        They shorten where a limb bends, which is where a skin would strain: a skeleton is cut as its mesh is.
+        """
+        shares = pairs.at_rest / (pairs.size or 1.0)
+        across = (shares >= LIMB[0]) & (shares <= LIMB[1])
+        return cls(pairs.first[across], pairs.second[across], pairs.at_rest[across]) if across.any() else cls.of(pairs)
 
     def tiles(
         self, block: Float32[np.ndarray, "frames V 3"]

@@ -158,13 +158,23 @@ def test_a_small_gesture_of_a_still_body_is_seen():
 
 
 def test_a_skeleton_without_a_mesh_has_a_curve():
-    """By the distances of its joints, and it says so."""
+    """By the bends and distances of its joints, and it says so."""
     source = performing_bar([0, 1], rings=12).animation
     joints = source.vertices(0, source.frames)[:, ::8]
     found = analyse(animation(joints, np.zeros((0, 3))), PAPER)
     assert "no-mesh-skeleton" in codes(found)
     assert np.nanmax(found.energy) > 0.1
-    assert found.features[0].values.shape == (found.frames, 0)
+    assert all(features.values.shape[1] for features in found.features)
+
+
+def test_a_skeleton_of_few_joints_has_a_curve_too():
+    """No two of three joints are as near as those of a limb, or those that are stay so: all pairs count then."""
+    time = np.arange(200) / 30
+    joints = np.zeros((200, 3, 3), np.float32)
+    joints[:, 1, 1] = 1
+    joints[:, 2] = joints[:, 1] + np.stack([0 * time, np.cos(time), np.sin(time)], axis=1) / 5
+    found = analyse(animation(joints, np.zeros((0, 3))), PAPER)
+    assert np.nanmax(found.energy) > 0.1
 
 
 def test_a_single_point_is_one_segment():
