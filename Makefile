@@ -9,13 +9,15 @@ LOCKED := pip install --quiet --disable-pip-version-check
 RESOLVE := uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --quiet
 COMPILE := $(RESOLVE) pyproject.toml
 
-.PHONY: help setup demo test lint bench fuzz lock clean
+.PHONY: help setup demo test lint audit bench fuzz dist lock clean
 
 help:
 	@echo "make demo    set up, start the service, segment two sample figures, show them in the page"
 	@echo "make test    set up, then everything that CI runs"
 	@echo "make setup   the environment alone: .venv with the command caesura, and the page's libraries"
 	@echo "make lint    format, rules, types and layers"
+	@echo "make audit   look every locked package up among known vulnerabilities, and the sources for unsafe calls"
+	@echo "make dist    a wheel and the sources of it, with the page's libraries inside, in dist/"
 	@echo "make bench   measure accuracy, and write docs/accuracy.md"
 	@echo "make fuzz    try files made of files for FUZZ_SECONDS (300)"
 	@echo "make lock    resolve the dependencies anew (needs uv)"
@@ -45,6 +47,20 @@ lint: setup
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-logo
+
+audit: setup .venv/audit/ready
+	$(BIN)/ruff check --select S core samples service worker
+	$(BIN)/python tools/audit.py
+
+# Apart: pip-audit brings thirty packages that nothing else needs.
+.venv/audit/ready: requirements.audit.lock | $(READY)
+	@$(PYTHON) -m venv .venv/audit
+	@.venv/audit/bin/python -m $(LOCKED) --require-hashes --only-binary :all: -r requirements.audit.lock
+	@touch $@
+
+dist: setup
+	@rm -rf dist
+	$(BIN)/python -m hatchling build -d dist
 
 bench: setup
 	$(BIN)/python -m benchmarks.accuracy

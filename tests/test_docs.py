@@ -94,3 +94,11 @@ def test_every_problem_is_documented(checkout: Path) -> None:
     }
     codes = {code for code in STATUS if code not in {*KINDS, "request", "worker"}}
     assert {code for code in raised | codes if f"`{code}`" not in page} == set()
+
+
+def test_make_help_lists_every_target(checkout: Path) -> None:
+    """What can be made is said by `make help`, and nothing else is."""
+    makefile = (checkout / "Makefile").read_text(encoding="utf-8")
+    (phony,) = re.findall(r"^\.PHONY: (.+)$", makefile, re.MULTILINE)
+    assert set(re.findall(r'@echo "make ([a-z]+) ', makefile)) | {"help"} == set(phony.split())
+    assert set(phony.split()) == set(re.findall(r"^([a-z]+):", makefile, re.MULTILINE))

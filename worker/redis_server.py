@@ -155,7 +155,7 @@ def _bundled(package: Path) -> list[str]:
 
 def _version_folder(folder: Path, program: str) -> Path:
     """Valkey and Redis keep apart, for neither reads all of the other; a newer file is not given to an older server."""
-    told = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout  # noqa: S603
+    told = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout  # noqa: S603  ours or the keeper's
     product = "valkey" if "valkey" in told.lower() else "redis"
     major = int(told.split("v=")[1].split(".")[0])
     kept = folder / product
