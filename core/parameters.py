@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from core.errors import ParameterError
 
-ALGORITHM = "1"
+ALGORITHM = "2"
 
 Auto = Literal["auto"]
 Positive = Field(gt=0, allow_inf_nan=False)

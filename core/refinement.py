@@ -1,4 +1,6 @@
-"""Refinement: windows blur a cut by up to half their length; single frames say where it is."""
+"""Refinement: windows blur a cut by up to half their length; single frames say where it is, and how clearly."""
+
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -14,11 +16,19 @@ GUARD_SECONDS = 0.75
 NEAREST = 5
 EXAMPLES = 600
 SPEED_WEIGHT = 0.5
+BESIDE_SECONDS = 0.3
+"""Of frames on each side of a cut that tell how clear its place is."""
 
 
-def refined(
-    labels: Int[np.ndarray, "frames"], features: tuple[Features, ...], frame_rate: float
-) -> Int[np.ndarray, "frames"]:
+@dataclass(frozen=True)
+class Refined:
+    """Labels of the frames, and for every cut, 0 to 1, how clear its place is: what moving it would cost."""
+
+    labels: Int[np.ndarray, "frames"]
+    clearness: Float[np.ndarray, "cuts"]
+
+
+def refined(labels: Int[np.ndarray, "frames"], features: tuple[Features, ...], frame_rate: float) -> Refined:
     """Every cut moved within half a second to where the frames before it are most like the motion before it, and those
     after it like the one after.
 
@@ -28,12 +38,13 @@ def refined(
     cuts = np.flatnonzero(np.diff(labels)) + 1
     poses = poses_and_speeds(features, frame_rate)
     if len(cuts) == 0 or poses.shape[1] == 0:
-        return labels
+        return Refined(labels, np.ones(len(cuts)))
     examples = _examples(poses, labels, cuts, round(GUARD_SECONDS * frame_rate))
-    moved = _moved(poses, labels, cuts, examples, max(round(REACH_SECONDS * frame_rate), 1))
+    reach, beside = (max(round(seconds * frame_rate), 1) for seconds in (REACH_SECONDS, BESIDE_SECONDS))
+    moved, clearness = _moved(poses, labels, cuts, examples, reach, beside)
     bounds = np.concatenate([[0], cuts])
     lengths = np.diff(np.concatenate([[0], moved, [len(labels)]]))
-    return np.asarray(np.repeat(labels[bounds], lengths))
+    return Refined(np.repeat(labels[bounds], lengths), clearness)
 
 
 def poses_and_speeds(features: tuple[Features, ...], frame_rate: float) -> Float[np.ndarray, "frames D"]:
@@ -72,10 +83,11 @@ def _moved(
     cuts: Int[np.ndarray, "cuts"],
     examples: dict[int, Float[np.ndarray, "examples D"]],
     reach: int,
-) -> Int[np.ndarray, "cuts"]:
-    """The best place of each cut, within reach and at most halfway to the cuts beside it."""
+    beside: int,
+) -> tuple[Int[np.ndarray, "cuts"], Float[np.ndarray, "cuts"]]:
+    """The best place of each cut, within reach and at most halfway to the cuts beside it; and how clear it is."""
     bounds = np.concatenate([[0], cuts, [len(labels)]])
-    moved = cuts.copy()
+    moved, clearness = cuts.copy(), np.zeros(len(cuts))
     for i, cut in enumerate(cuts.tolist()):
         first = max(cut - reach, (int(bounds[i]) + cut) // 2 + 1)
         last = min(cut + reach, (cut + int(bounds[i + 2])) // 2)
@@ -84,8 +96,24 @@ def _moved(
         before = _unlikeness(poses[first:last], examples[int(labels[cut - 1])])
         after = _unlikeness(poses[first:last], examples[int(labels[cut])])
         cost = np.concatenate([[0.0], np.cumsum(before - after)])
-        moved[i] = first + int(cost.argmin())
-    return moved
+        best = int(cost.argmin())
+        moved[i] = first + best
+        left, right = slice(max(best - beside, 0), best), slice(best, best + beside)
+        clearness[i] = min(_clear(before[left], after[left]), _clear(after[right], before[right]))
+    return moved, clearness
+
+
+def _clear(own: Float[np.ndarray, "some"], other: Float[np.ndarray, "some"]) -> float:
+    """1 − (unlikeness to their own motion / to the other)² of the frames on one side of a cut, at least 0.
+
+    Without such frames, at the end of a cut's reach, nothing is known: 0 frames are unlike nothing.
+    """
+    if len(own) == 0:
+        return 1.0
+    return float(max(1 - (own.sum() / max(other.sum(), _TINY)) ** 2, 0.0))
+
+
+_TINY = float(np.finfo(np.float64).tiny)
 
 
 def _unlikeness(

@@ -31,9 +31,9 @@ def switching(analysis: Analysis, parameters: Parameters) -> Cut:
         settled, scores = _motions(alike, parameters)
         motions = settled.motions if parameters.motions == "auto" else parameters.motions
         weighed, settled = _agreed(weighings, alike, settled, motions)
-        labels = refined(weighed.signal.per_frame(settled.labels), features, analysis.frame_rate)
-        sure = certainty(weighed.signal, settled, weighed.penalty)
-    return Cut(labels, keys, sure, scores, _fewer(parameters.motions, settled.motions))
+        found = refined(weighed.signal.per_frame(settled.labels), features, analysis.frame_rate)
+        sure = certainty(weighed.signal, settled, weighed.penalty) * found.clearness
+    return Cut(found.labels, keys, sure, scores, _fewer(parameters.motions, settled.motions))
 
 
 def _motions(alike: Weighed, parameters: Parameters) -> tuple[Settled, tuple[Score, ...]]:

@@ -1,4 +1,7 @@
-"""Certainty: which cuts to look at first."""
+"""Certainty: what dropping a cut would cost.
+
+What moving it would cost is told by the refinement; their product says which cuts to look at first.
+"""
 
 import numpy as np
 from jaxtyping import Float
