@@ -9,7 +9,7 @@ LOCKED := pip install --quiet --disable-pip-version-check
 RESOLVE := uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --quiet
 COMPILE := $(RESOLVE) pyproject.toml
 
-.PHONY: help setup demo test lint audit bench fuzz dist lock clean
+.PHONY: chaos help setup demo test lint audit bench fuzz dist lock clean
 
 help:
 	@echo "make demo    set up, start the service, segment two sample figures, show them in the page"
@@ -20,6 +20,7 @@ help:
 	@echo "make dist    a wheel and the sources of it, with the page's libraries inside, in dist/"
 	@echo "make bench   measure accuracy, and write docs/accuracy.md"
 	@echo "make fuzz    try files made of files for FUZZ_SECONDS (300)"
+	@echo "make chaos   kill everything at random while takes are segmented; nothing may be lost"
 	@echo "make lock    resolve the dependencies anew (needs uv)"
 	@echo "make clean   take away all that make made"
 
@@ -61,6 +62,9 @@ audit: setup .venv/audit/ready
 dist: setup
 	@rm -rf dist
 	$(BIN)/python -m hatchling build -d dist
+
+chaos: setup
+	$(BIN)/python -m benchmarks.chaos
 
 bench: setup
 	$(BIN)/python -m benchmarks.accuracy

@@ -1,0 +1,123 @@
+"""What is lost when everything is killed: nothing, or this command says what.
+
+`python -m benchmarks.chaos` has 8 clients send 200 takes twice: to a service that is left in peace, and to one whose
+work-horses, workers, Redis, web process and supervisor get SIGKILL at random (seeded). Then it looks for what is lost,
+stuck, done twice, different, or left behind. Writes docs/operations.md; the exit status is 1 where anything is wrong.
+"""
+
+import argparse
+import os
+import random
+import shutil
+import signal
+import sys
+import time
+from collections import Counter
+from concurrent.futures import Future, ProcessPoolExecutor, wait
+from contextlib import suppress
+from multiprocessing import get_context
+from pathlib import Path
+from tempfile import mkdtemp
+
+from benchmarks import chaos_client
+from benchmarks.chaos_client import Seen
+from benchmarks.chaos_house import House
+from benchmarks.chaos_takes import takes
+from benchmarks.chaos_verdict import Verdict, verdict
+from benchmarks.report import write_section
+
+DOCS = Path(__file__).resolve().parent.parent / "docs" / "operations.md"
+CLIENTS = 8
+LONGEST_SECONDS = 420.0
+BETWEEN_SECONDS = (0.3, 2.0)
+MOST_KILLS = 100
+WEIGHTS = {"work-horse": 10, "worker": 4, "web": 4, "Redis": 3, "pool": 1, "supervisor": 1}
+
+
+def main() -> None:
+    """Run in peace, run under fire, compare, say."""
+    arguments = argparse.ArgumentParser(description=__doc__)
+    arguments.add_argument("--jobs", type=int, default=200)
+    arguments.add_argument("--seed", type=int, default=7)
+    arguments.add_argument("--print", action="store_true", help="print only")
+    arguments.add_argument("--keep", action="store_true", help="leave the folders, and say where they are")
+    chosen = arguments.parse_args()
+    work = takes(chosen.jobs)
+    folder = Path(mkdtemp(prefix="caesura-chaos-"))
+    try:
+        quiet, quiet_verdict, quiet_seconds, _ = _run(folder / "quiet", work, None)
+        fire, found, seconds, kills = _run(folder / "fire", work, random.Random(chosen.seed), quiet)
+    finally:
+        if not chosen.keep:
+            shutil.rmtree(folder)
+    lines = [
+        "| under fire | |",
+        "|---|---|",
+        f"| takes, clients, seed | {chosen.jobs}, {CLIENTS}, {chosen.seed} |",
+        f"| killed | {', '.join(f'{count} {name}' for name, count in kills.most_common())} |",
+        *(f"| {name} | {count} |" for name, count in sorted(fire.tally.items())),
+        *found.rows(),
+        f"| in peace, under fire | {quiet_seconds:.0f} s, {seconds:.0f} s |",
+    ]
+    print("\n".join(lines))
+    if chosen.keep:
+        print(f"kept in {folder}")
+    if not chosen.print:
+        write_section(DOCS, "chaos", "\n".join(lines))
+    faults = [*(f"in peace: {fault}" for fault in quiet_verdict.faults), *found.faults]
+    print("\n".join(faults))
+    told = "; ".join(f"{count} {name}" for name, count in found.counts.items())
+    print(f"{'WRONG' if faults else 'NOTHING LOST'}: {told}")
+    sys.exit(1 if faults else 0)
+
+
+def _run(
+    folder: Path, work: list[bytes], chance: random.Random | None, quiet: Seen | None = None
+) -> tuple[Seen, Verdict, float, Counter[str]]:
+    """One installation from its first start to its last process: what was seen, what is wrong, and how long it took."""
+    folder.mkdir()
+    house = House(folder)
+    house.until_ready()
+    began = time.monotonic()
+    deadline = began + LONGEST_SECONDS
+    numbered = list(enumerate(work))
+    with ProcessPoolExecutor(CLIENTS, mp_context=get_context("spawn")) as clients:
+        parts = [numbered[first::CLIENTS] for first in range(CLIENTS)]
+        running = [clients.submit(chaos_client.run, house.url, part, deadline) for part in parts]
+        kills = Counter[str]() if chance is None else _fire(house, chance, running)
+        seen = _together([one.result() for one in running])
+    seconds = time.monotonic() - began
+    return seen, verdict(house, len(work), seen, quiet), seconds, kills
+
+
+def _fire(house: House, chance: random.Random, running: list["Future[Seen]"]) -> Counter[str]:
+    """Kill until the clients have all they want, or it is enough; how many of which.
+
+    Only while there are workers: who is killed faster than it can start shows nothing.
+    """
+    kills: Counter[str] = Counter()
+    while wait(running, timeout=chance.uniform(*BETWEEN_SECONDS)).not_done:
+        house.keep_up()
+        there = {name: pids for name, pids in house.parts().items() if pids and name in WEIGHTS}
+        if "worker" not in there or kills.total() >= MOST_KILLS:
+            continue
+        name = chance.choices(list(there), [WEIGHTS[name] for name in there])[0]
+        with suppress(ProcessLookupError):
+            os.kill(chance.choice(there[name]), signal.SIGKILL)
+            kills[name] += 1
+    return kills
+
+
+def _together(parts: list[Seen]) -> Seen:
+    """What all clients saw."""
+    seen = Seen()
+    for part in parts:
+        seen.results |= part.results
+        seen.lost += part.lost
+        seen.wrong += part.wrong
+        seen.tally += part.tally
+    return seen
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,109 @@
+"""What is wrong after a run: looked for in what the clients saw, in Redis, in the store, and among the processes."""
+
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import httpx
+
+from benchmarks.chaos_client import Seen
+from benchmarks.chaos_house import House
+from worker.jobs import Jobs
+from worker.orphans import forget_orphans
+
+QUIET_SECONDS = 90.0
+
+
+@dataclass
+class Verdict:
+    """Counts that must be zero are also `faults`, each a sentence."""
+
+    counts: dict[str, int] = field(default_factory=dict)
+    faults: list[str] = field(default_factory=list)
+    retried: int = 0
+    swept: int = 0
+
+    def none(self, name: str, found: list[str]) -> None:
+        """There must be none of these."""
+        self.counts[name] = len(found)
+        self.faults += [f"{name}: {one}" for one in found]
+
+    def rows(self) -> list[str]:
+        """The same as rows of a table."""
+        return [
+            f"| attempts that were lost and tried again | {self.retried} |",
+            f"| blobs without a record, found and deleted by the sweep | {self.swept} |",
+            *(f"| **{name}** | **{count}** |" for name, count in self.counts.items()),
+        ]
+
+
+def verdict(house: House, expected: int, seen: Seen, quiet: Seen | None) -> Verdict:
+    """Look everywhere, end the service, look for processes."""
+    house.until_ready()
+    jobs, said = house.jobs(), Verdict()
+    said.counts["accounted for"] = len(seen.results)
+    said.none("lost", seen.lost)
+    said.none("stuck", _stuck(jobs, expected, seen))
+    said.none("duplicated", _duplicated(house, jobs, expected, seen))
+    said.none("different from the quiet run", [] if quiet is None else _different(seen, quiet))
+    said.none("unexplained answers", seen.wrong)
+    said.retried = sum(
+        record.attempt - 1
+        for identifier, _, _ in seen.results.values()
+        if (record := jobs.records.segmentation(identifier)) is not None
+    )
+    said.none("leftover files", _leftover(house, jobs, said))
+    said.none("orphan processes", [str(pid) for pid in house.stop()])
+    return said
+
+
+def _stuck(jobs: Jobs, expected: int, seen: Seen) -> list[str]:
+    """What was never done, and what is still on its way when it should long be quiet."""
+    deadline = time.monotonic() + QUIET_SECONDS
+    while (jobs.records.live() or any(jobs.depths().values())) and time.monotonic() < deadline:
+        time.sleep(0.2)
+    live = [f"{record.id} is {record.status}" for record in jobs.records.live()]
+    queued = [f"{depth} jobs wait on {name}" for name, depth in jobs.depths().items() if depth]
+    missing = expected - len(seen.results) - len(seen.lost) - len(seen.wrong)
+    return [*live, *queued, *(["a take was never done"] * max(missing, 0))]
+
+
+def _duplicated(house: House, jobs: Jobs, expected: int, seen: Seen) -> list[str]:
+    """More animations or segmentations than were sent, or a result that is another than its client has seen."""
+    found = []
+    animations = jobs.records.uses()
+    if len(animations) > expected:
+        found.append(f"{len(animations)} animations of {expected} takes")
+    found += [f"{name} was cut twice" for name in animations if len(jobs.records.segmentations(name)) > 1]
+    with httpx.Client(base_url=house.url, trust_env=False, timeout=30) as http:
+        for identifier, tag, content in seen.results.values():
+            now = http.get(f"/v1/segmentations/{identifier}/result.json")
+            if now.content != content or now.headers.get("ETag") != tag:
+                found.append(f"{identifier} was done again after its client had seen it done")
+    return found
+
+
+def _different(seen: Seen, quiet: Seen) -> list[str]:
+    """Results that are not, byte for byte, those of the run that was left in peace."""
+    return [
+        f"take {number}"
+        for number, (identifier, _, content) in seen.results.items()
+        if number in quiet.results and (identifier, content) != (quiet.results[number][0], quiet.results[number][2])
+    ]
+
+
+def _leftover(house: House, jobs: Jobs, said: Verdict) -> list[str]:
+    """Files that nothing needs, once the sweep has looked twice."""
+    blobs = house.blobs()
+    before = dict(blobs.all())
+    forget_orphans(jobs.records, blobs, 0.0)
+    forget_orphans(jobs.records, blobs, 0.0)
+    kept = dict(blobs.all())
+    said.swept = len(before) - len(kept)
+    stored = {str(path.relative_to(house.folder / "blobs")) for path in _files(house.folder / "blobs")}
+    hidden = [f"blobs/{name}, which no listing shows" for name in stored - kept.keys()]
+    return [*hidden, *(str(path) for path in _files(house.settings.scratch_dir))]
+
+
+def _files(folder: Path) -> list[Path]:
+    return [path for path in folder.rglob("*") if path.is_file()]
