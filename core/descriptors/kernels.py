@@ -31,29 +31,6 @@ def largest_bits(values: Indices) -> np.int32:
     return largest
 
 
-@njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
-def gather(vertices: Floats, members: Indices, rows: Floats) -> None:
-    """rows[i, axis, f] = vertices[f, members[i], axis].
-
-    Four frames at a time: few enough to be read ahead as streams, enough to write runs of each row.
-    """
-    frames = vertices.shape[0]
-    fours = frames // 4 * 4
-    for f in range(0, fours, 4):
-        first, second, third, fourth = vertices[f], vertices[f + 1], vertices[f + 2], vertices[f + 3]
-        for i in range(members.size):
-            v, row = members[i], rows[i]
-            for axis in range(3):
-                row[axis, f] = first[v, axis]
-                row[axis, f + 1] = second[v, axis]
-                row[axis, f + 2] = third[v, axis]
-                row[axis, f + 3] = fourth[v, axis]
-    for f in range(fours, frames):
-        for i in range(members.size):
-            for axis in range(3):
-                rows[i, axis, f] = vertices[f, members[i], axis]
-
-
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy", inline="always")
 def _ln(x: np.float32) -> np.float32:
     """Natural logarithm of a positive normal float32, to about 1e-7 of its value, about 1 too.
@@ -91,49 +68,61 @@ def _atanh_squared(y: np.float32) -> np.float32:
     return p * y
 
 
+WIDTH = 64
+"""Frames in a row of strain. A constant, so that the compiler knows how long the loops are and which rows are apart."""
+
+Y, Z = WIDTH, 2 * WIDTH
+"""Where the second and the third axis of a row of vertices begin."""
+
 MODERATE = np.float32(0.7)
 """The log strain up to which the series of `_atanh_squared` is used: stretches between a half and two."""
+
+_MODERATE_BITS = MODERATE.view(np.int32)
 
 
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
 def _moderate_log_strains(
-    rows: Floats, corners: Indices, shapes: Floats, scale: Floats, tile: Floats, beyond: NDArray[np.bool_]
+    rows: Floats, corners: Indices, shapes: Floats, scale: Floats, scratch: Floats, tile: Floats, largest: Indices
 ) -> None:
-    """tile[t, f] = log strain without a logarithm, good to a part in a million up to `MODERATE`; rows that go beyond.
+    """tile[t, f] = log strain without a logarithm, good to a part in a million up to `MODERATE`; its largest bits.
 
     With λ1 ≥ λ2 the squared stretches, ln²σ1 + ln²σ2 = (p² + q²) / 2 where p = atanh((λ1 λ2 − 1) / (λ1 λ2 + 1)) and
     q = atanh((λ1 − λ2) / (λ1 + λ2)). Both squares are rational in E, B and G: one division and one root a triangle.
+
+    In three short loops, for in one long one every value waits for the one before it, and the processor looks too few
+    instructions ahead to find others that do not: it would be 1.6 times slower. `scratch` lies in one piece, at
+    constant distances, so that the compiler sees that its parts are apart.
     """
     for t in range(corners.shape[0]):
         origin, first, second = rows[corners[t, 0]], rows[corners[t, 1]], rows[corners[t, 2]]
-        ox, oy, oz = origin[0], origin[1], origin[2]
-        px, py, pz = first[0], first[1], first[2]
-        qx, qy, qz = second[0], second[1], second[2]
         per_c, shear = shapes[t, 1], shapes[t, 2]
         squared, doubled = shapes[t, 0] * shapes[t, 0], np.float32(2) * shapes[t, 0]
-        strain = tile[t]
-        outside = np.float32(0)  # a float32, for a count of integers would be 64 bits wide and halve the vectors
-        for f in range(strain.size):
-            x1, y1, z1 = px[f] - ox[f], py[f] - oy[f], pz[f] - oz[f]
-            x2, y2, z2 = qx[f] - ox[f], qy[f] - oy[f], qz[f] - oz[f]
+        for f in range(WIDTH):
+            x1, y1, z1 = first[f] - origin[f], first[Y + f] - origin[Y + f], first[Z + f] - origin[Z + f]
+            x2, y2, z2 = second[f] - origin[f], second[Y + f] - origin[Y + f], second[Z + f] - origin[Z + f]
             wx, wy, wz = x2 * per_c - x1 * shear, y2 * per_c - y1 * shear, z2 * per_c - z1 * shear
-            e = (x1 * x1 + y1 * y1 + z1 * z1) * squared
-            b2 = (x1 * wx + y1 * wy + z1 * wz) * doubled
-            g = wx * wx + wy * wy + wz * wz
-            total, half = e + g, e - g
-            apart = half * half + b2 * b2  # (λ1 − λ2)²
-            product = (e * g - np.float32(0.25) * b2 * b2) * scale[f] * scale[f]
+            scratch[f] = (x1 * x1 + y1 * y1 + z1 * z1) * squared  # E
+            scratch[Y + f] = (x1 * wx + y1 * wy + z1 * wz) * doubled  # 2 B
+            scratch[Z + f] = wx * wx + wy * wy + wz * wz  # G
+        for f in range(WIDTH):
+            e, b2, g = scratch[f], scratch[Y + f], scratch[Z + f]
+            total, half, squared_b2 = e + g, e - g, b2 * b2
+            apart = half * half + squared_b2  # (λ1 − λ2)²
+            product = (e * g - np.float32(0.25) * squared_b2) * (scale[f] * scale[f])
             # y = x / (1 − x / 2) of both, over one denominator
             below_q = total * total - np.float32(0.5) * apart
             below_p = product * (np.float32(0.5) * product + np.float32(3)) + np.float32(0.5)
             above_p = (product - np.float32(1)) * (product - np.float32(1))
             per_both = np.float32(1) / (below_p * below_q)
-            q = _atanh_squared(apart * below_p * per_both)
-            p = _atanh_squared(above_p * below_q * per_both)
-            value = np.sqrt(np.float32(0.5) * (p + q))
+            scratch[f] = apart * below_p * per_both
+            scratch[Y + f] = above_p * below_q * per_both
+        strain, top = tile[t], np.int32(0)
+        for f in range(WIDTH):
+            both = _atanh_squared(scratch[f]) + _atanh_squared(scratch[Y + f])
+            value = np.float32(np.sqrt(np.float32(0.5) * both))
             strain[f] = value
-            outside += np.float32(0) if value <= MODERATE else np.float32(1)  # NaN is outside
-        beyond[t] = outside != np.float32(0)
+            top = max(top, np.int32(value.view(np.int32) & np.int32(0x7FFFFFFF)))  # NaN is the largest of all
+        largest[t] = top
 
 
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
@@ -147,9 +136,9 @@ def _squared_stretches(
     """
     origin, first, second = rows[corners[0]], rows[corners[1]], rows[corners[2]]
     per_a, per_c, shear = shape[0], shape[1], shape[2]
-    for f in range(larger.size):
-        x1, y1, z1 = first[0, f] - origin[0, f], first[1, f] - origin[1, f], first[2, f] - origin[2, f]
-        x2, y2, z2 = second[0, f] - origin[0, f], second[1, f] - origin[1, f], second[2, f] - origin[2, f]
+    for f in range(WIDTH):
+        x1, y1, z1 = first[f] - origin[f], first[Y + f] - origin[Y + f], first[Z + f] - origin[Z + f]
+        x2, y2, z2 = second[f] - origin[f], second[Y + f] - origin[Y + f], second[Z + f] - origin[Z + f]
         ux, uy, uz = x1 * per_a, y1 * per_a, z1 * per_a
         wx, wy, wz = x2 * per_c - x1 * shear, y2 * per_c - y1 * shear, z2 * per_c - z1 * shear
         e = ux * ux + uy * uy + uz * uz
@@ -165,32 +154,34 @@ def _squared_stretches(
 
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
 def strain_tile(
-    rows: Floats, corners: Indices, shapes: Floats, scale: Floats, measure: int, stretches: Floats, tile: Floats
+    rows: Floats, corners: Indices, shapes: Floats, scale: Floats, measure: int, scratch: Floats, tile: Floats
 ) -> None:
-    """tile[t, f]: strain of each triangle; `stretches`, two rows of scratch; `scale[f]` times the squared stretches.
+    """tile[t, f]: strain of each triangle; `scratch`, three rows; `scale[f]` times the squared stretches.
+
+    `rows` (vertices, 3 · WIDTH) hold the frames of x, then of y, then of z.
 
     Which way a value is computed depends on the value alone, so that no bit depends on how frames fall into blocks.
     """
-    larger, other = stretches[0], stretches[1]
-    beyond = np.ones(corners.shape[0], np.bool_)
+    larger, other, most_moderate = scratch[:Y], scratch[Y:Z], _MODERATE_BITS
+    largest = np.full(corners.shape[0], np.int32(0x7FFFFFFF), np.int32)
     if measure == LOG:
-        _moderate_log_strains(rows, corners, shapes, scale, tile, beyond)
+        _moderate_log_strains(rows, corners, shapes, scale, scratch, tile, largest)
     for t in range(corners.shape[0]):
-        if not beyond[t]:
+        if largest[t] <= most_moderate:
             continue
         strain = tile[t]
         _squared_stretches(rows, corners[t], shapes[t], scale, larger, other)
         if measure == LOG:
-            for f in range(strain.size):
+            for f in range(WIDTH):
                 most, least = _ln(larger[f]), _ln(other[f])
                 extreme = np.float32(0.5) * np.sqrt(most * most + least * least)
                 strain[f] = strain[f] if strain[f] <= MODERATE else extreme
         elif measure == BIOT:
-            for f in range(strain.size):
+            for f in range(WIDTH):
                 most, least = np.sqrt(larger[f]) - np.float32(1), np.sqrt(other[f]) - np.float32(1)
                 strain[f] = np.sqrt(most * most + least * least)
         else:
-            for f in range(strain.size):
+            for f in range(WIDTH):
                 most, least = np.sqrt(larger[f]) - np.float32(1), np.sqrt(other[f]) - np.float32(1)
                 strain[f] = max(abs(most), abs(least))
 

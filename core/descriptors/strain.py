@@ -15,6 +15,8 @@ import numpy as np
 from jaxtyping import Float, Float32, Float64, Int
 
 from core.descriptors import kernels
+from core.descriptors.gathering.kernels import gather
+from core.descriptors.kernels import WIDTH
 
 MEASURES = {"log": kernels.LOG, "biot": kernels.BIOT, "max": kernels.MAX}
 """`log`: sqrt(ln²σ1 + ln²σ2) (Hencky); `biot`: sqrt((σ1−1)² + (σ2−1)²); `max`: max(|σ1−1|, |σ2−1|). σ = sqrt(λ)."""
@@ -88,31 +90,44 @@ class TriangleStrain:
         Finite for vertices below `kernels.REACH`: a stretch below a thousandth counts as a thousandth.
         """
         frames = len(block)
-        rows = np.empty((max((len(p.members) for p in self.parts), default=0), 3, frames), np.float32)
-        tile, stretches = np.empty((TILE, frames), np.float32), np.empty((2, frames), np.float32)
-        scale = self._scale(block, rows)
+        whole, scale = _in_widths(block), _in_widths(self._scale(block))
+        rows = np.empty((self._most_members, 3, WIDTH), np.float32)
+        tile, scratch = np.empty((TILE, WIDTH), np.float32), np.empty(3 * WIDTH, np.float32)
         for number, part in enumerate(self.parts):
-            kernels.gather(block, part.members, rows)
             out = tile[: len(part.corners)]
-            kernels.strain_tile(rows, part.corners, part.shapes, scale, self.measure, stretches, out)
-            yield slice(number * TILE, number * TILE + len(out)), out
+            pieces = []
+            for start in range(0, len(whole), WIDTH):
+                gather(whole[start : start + WIDTH], part.members, rows)
+                lines, factors = rows.reshape(-1, 3 * WIDTH), scale[start : start + WIDTH]
+                kernels.strain_tile(lines, part.corners, part.shapes, factors, self.measure, scratch, out)
+                if frames != WIDTH:
+                    pieces.append(out[:, : frames - start].copy())
+            yield slice(number * TILE, number * TILE + len(out)), np.concatenate(pieces, axis=1) if pieces else out
 
     def noise(self, reach: float) -> Float32[np.ndarray, "columns"]:
         """The strain that rounding alone gives each triangle where coordinates go up to `reach`."""
         return (ROUNDING * reach * self.thinness).astype(np.float32)
 
-    def _scale(
-        self, block: Float32[np.ndarray, "frames V 3"], rows: Float32[np.ndarray, "v 3 frames"]
-    ) -> Float32[np.ndarray, "frames"]:
+    @property
+    def _most_members(self) -> int:
+        return max((len(part.members) for part in self.parts), default=0)
+
+    def _scale(self, block: Float32[np.ndarray, "frames V 3"]) -> Float32[np.ndarray, "frames"]:
         """What the squared stretches are multiplied by: rest area over the frame's, or 1."""
         if not self.scale_invariant:
             return np.ones(len(block), np.float32)
-        twice = np.zeros(len(block), np.float64)
+        rows, twice = np.empty((self._most_members, 3, len(block)), np.float32), np.zeros(len(block), np.float64)
         for part in self.parts:
-            kernels.gather(block, part.members, rows)
+            gather(block, part.members, rows)
             kernels.add_areas(rows, part.corners, twice)
         smallest = np.finfo(np.float32).tiny * self.areas.sum()
         return np.asarray(np.minimum(2 * self.areas.sum() / np.maximum(twice, smallest), 1e12), np.float32)
+
+
+def _in_widths(values: Float32[np.ndarray, "frames *rest"]) -> Float32[np.ndarray, "whole *rest"]:
+    """The frames with the last one repeated up to a multiple of `WIDTH`; themselves where they are one already."""
+    missing = -len(values) % WIDTH
+    return np.concatenate([values, np.repeat(values[-1:], missing, axis=0)]) if missing else values
 
 
 def _longest_edge_first(rest: Float[np.ndarray, "V 3"], triangles: Int[np.ndarray, "T 3"]) -> Int[np.ndarray, "T 3"]:
