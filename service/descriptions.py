@@ -40,16 +40,27 @@ RESULT: dict[int | str, dict[str, Any]] = {
             "application/json": {"schema": {"$ref": "#/components/schemas/SegmentationDocument"}},
             "text/csv": {
                 "schema": {"type": "string"},
-                "example": "name,motion,start,end,start_seconds,end_seconds\nA,0,0,205,0.000000,6.833333\n",
+                "example": "name,motion,start,end,start_seconds,end_seconds,confidence,loop,discard\n"
+                "A,0,0,205,0.000000,6.833333,0.91,0,0\n",
             },
             "text/vtt": {
                 "schema": {"type": "string"},
                 "example": "WEBVTT\n\n00:00:00.000 --> 00:00:06.833\nA\n",
             },
+            "text/x-eaf+xml": {"schema": {"type": "string"}},
             FORMS[2].media_type: {"schema": _BYTES},
         },
     },
     202: {"description": "The file is being made; ask again."},
+    304: {"description": "It is the one that the client has."},
+}
+
+PLOT: dict[int | str, dict[str, Any]] = {
+    200: {
+        "description": "The picture.",
+        "content": {"image/svg+xml": {"schema": {"type": "string"}}, "image/png": {"schema": _BYTES}},
+    },
+    202: {"description": "The picture is being drawn; ask again."},
     304: {"description": "It is the one that the client has."},
 }
 

@@ -102,7 +102,7 @@ class SegmentationPage(_Answer):
 def _links(identifier: str) -> dict[str, str]:
     here = f"/v1/segmentations/{identifier}"
     named = {name: f"{here}/{name}" for name in ("events", "result", "revisions", "clips", "keyframes", "viewer")}
-    return {"self": here, **named, "page": f"/view/{identifier}"}
+    return {"self": here, **named, "plot": f"{here}/plot.svg", "page": f"/view/{identifier}"}
 
 
 class RevisionEntry(_Answer):
@@ -118,7 +118,7 @@ class RevisionEntry(_Answer):
         """The answer for a record."""
         here, query = f"/v1/segmentations/{identifier}", f"?revision={record.number}"
         links = {name: f"{here}/{name}{query}" for name in ("result", "clips", "keyframes")}
-        links = {"self": f"{here}/revisions/{record.number}", **links}
+        links = {"self": f"{here}/revisions/{record.number}", **links, "plot": f"{here}/plot.svg{query}"}
         return cls(revision=record.number, created=record.created, note=record.note, links=links, **more)
 
 

@@ -18,15 +18,28 @@ FORMS = (
     Form("csv", "text/csv"),
     Form("npz", "application/x-npz"),
     Form("vtt", "text/vtt"),
+    Form("eaf", "text/x-eaf+xml"),
 )
 
 
+PLOTS = (Form("svg", "image/svg+xml"), Form("png", "image/png"))
+
+
 def by_suffix(suffix: str) -> Form:
-    """The form of an address that ends in `.suffix`."""
-    for form in FORMS:
+    """The form of an address that ends in `result.suffix`."""
+    return _called(suffix, FORMS, "result")
+
+
+def plot_by_suffix(suffix: str) -> Form:
+    """The form of an address that ends in `plot.suffix`."""
+    return _called(suffix, PLOTS, "plot")
+
+
+def _called(suffix: str, forms: tuple[Form, ...], what: str) -> Form:
+    for form in forms:
         if form.suffix == suffix:
             return form
-    raise Refusal("not-found", f"There is no result.{suffix}. There are: {_listed()}.")
+    raise Refusal("not-found", f"There is no {what}.{suffix[:20]}. There are: {_listed(forms)}.")
 
 
 def by_accept(header: str) -> Form:
@@ -34,7 +47,7 @@ def by_accept(header: str) -> Form:
     wanted = [_quality(item) for item in header.split(",") if item.strip()] or [("*/*", 1.0)]
     best = max(FORMS, key=lambda form: _liking(form, wanted))
     if _liking(best, wanted) <= 0:
-        raise Refusal("not-acceptable", f"The result does not come as {header}. It comes as: {_listed()}.")
+        raise Refusal("not-acceptable", f"The result does not come as {header}. It comes as: {_listed(FORMS)}.")
     return best
 
 
@@ -56,5 +69,5 @@ def _liking(form: Form, wanted: list[tuple[str, float]]) -> float:
     return 0.0
 
 
-def _listed() -> str:
-    return ", ".join(f".{form.suffix} ({form.media_type})" for form in FORMS)
+def _listed(forms: tuple[Form, ...]) -> str:
+    return ", ".join(f".{form.suffix} ({form.media_type})" for form in forms)

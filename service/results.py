@@ -12,6 +12,7 @@ from service import exports
 from service.answers import ASK_AGAIN, answer, preference_applied, problem_of
 from service.backend import Backend
 from service.documents import StatusDocument
+from service.elan import segments_eaf
 from service.errors import Refusal, problem_response
 from service.forms import Form
 from service.preferences import wait_seconds
@@ -21,11 +22,17 @@ from worker.schema import ExportRecord, SegmentationRecord
 
 EXPORT_WAIT_SECONDS = 5
 
+MADE = {"npz": "result", "png": "plot"}
+"""Forms that a job makes, for want of arrays or of time here, and what their address calls them."""
+
+
 Writer = Callable[[SegmentationDocument], str]
 WRITERS: dict[tuple[str, str], Writer] = {
     ("csv", "segments"): exports.segments_csv,
     ("csv", "frames"): exports.frames_csv,
     ("vtt", "segments"): exports.segments_vtt,
+    ("eaf", "segments"): segments_eaf,
+    ("svg", "segments"): exports.plot_svg,
 }
 
 
@@ -45,7 +52,7 @@ async def result(backend: Backend, request: Request, record: SegmentationRecord,
     if refused is not None:
         return refused
     number = number_of(record, wanted.revision)
-    if wanted.form.suffix == "npz":
+    if wanted.form.suffix in MADE:
         return await _made(backend, request, record, wanted.form, number)
     return await _text(backend, request, record, wanted, number)
 
@@ -91,8 +98,10 @@ async def _content(backend: Backend, record: SegmentationRecord, write: Writer |
 async def _made(backend: Backend, request: Request, record: SegmentationRecord, form: Form, number: int) -> Response:
     """Made of arrays by a job at the first request, then served as stored."""
     query = f"?revision={number}" if number else ""
-    name, here = f"{record.id}.{form.suffix}", f"/v1/segmentations/{record.id}/result.{form.suffix}{query}"
-    return await made_file(backend, request, record, form.suffix + query, here, name, form.media_type)
+    here = f"/v1/segmentations/{record.id}/{MADE[form.suffix]}.{form.suffix}{query}"
+    return await made_file(
+        backend, request, record, form.suffix + query, here, f"{record.id}.{form.suffix}", form.media_type
+    )
 
 
 async def made_file(

@@ -3,7 +3,7 @@
 import subprocess
 import sys
 
-HEAVY = ("numpy", "numba", "scipy", "sklearn", "trimesh", "threadpoolctl")
+HEAVY = ("numpy", "PIL", "numba", "scipy", "sklearn", "trimesh", "threadpoolctl")
 
 PROGRAM = f"""
 import sys

@@ -16,6 +16,8 @@ from core.document import SegmentationDocument
 from core.errors import CaesuraError
 from core.formats.clips.options import ClipOptions
 from core.formats.clips.write import Parts, Scratch, Written, write_clips, write_key_poses
+from core.plot.layout import picture_of
+from core.plot.png import png
 from core.revision import revised
 from worker.allowance import Allowance
 from worker.attempt import INTERNAL_ERROR
@@ -72,6 +74,11 @@ def npz(export: Export, _: Options) -> ExportRecord:
     return export.keep(out.getvalue(), "application/octet-stream")
 
 
+def plot(export: Export, _: Options) -> ExportRecord:
+    """The curve, its key-frames, the cuts and the segments in colour."""
+    return export.keep(png(picture_of(export.document)), "image/png")
+
+
 def clips(export: Export, options: Options) -> ExportRecord:
     """The upload with its take in clips."""
     chosen = ClipOptions.of(options)
@@ -95,7 +102,7 @@ def _of_upload(export: Export, write: Callable[[Parts, Scratch], Written]) -> Ex
 
 
 Writer = Callable[[Export, Options], ExportRecord]
-WRITERS: dict[str, Writer] = {"npz": npz, "clips": clips, "keyframes": keyframes}
+WRITERS: dict[str, Writer] = {"npz": npz, "png": plot, "clips": clips, "keyframes": keyframes}
 
 
 def run(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: str, form: str) -> None:

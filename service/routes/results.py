@@ -8,10 +8,10 @@ from fastapi import APIRouter, Query, Request, Response
 from service.access import Owner
 from service.answers import answer
 from service.backend import Backend, Behind
-from service.descriptions import FILE, RESULT
+from service.descriptions import FILE, PLOT, RESULT
 from service.documents import ViewerDocument
 from service.errors import Refusal
-from service.forms import by_accept, by_suffix
+from service.forms import by_accept, by_suffix, plot_by_suffix
 from service.ranges import Stored, stored_response
 from service.results import Wanted, result
 from service.revisions import Revision
@@ -46,8 +46,17 @@ async def by_name(
     table: Table = "segments",
     revision: Revision = "0",
 ) -> Response:
-    """The result in the form that the address ends in: json, csv, npz or vtt."""
+    """The result in the form that the address ends in: json, csv, npz, vtt or eaf."""
     wanted = Wanted(by_suffix(suffix), table, revision)
+    return await result(backend, request, await backend.segmentation(identifier, owner), wanted)
+
+
+@router.get("/plot.{suffix}", responses=PLOT)
+async def plot(
+    identifier: str, suffix: str, request: Request, backend: Behind, owner: Owner, revision: Revision = "0"
+) -> Response:
+    """The energy curve with key-frames, cuts and coloured segments, as in the paper's figures: svg or png."""
+    wanted = Wanted(plot_by_suffix(suffix), revision=revision)
     return await result(backend, request, await backend.segmentation(identifier, owner), wanted)
 
 

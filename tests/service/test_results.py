@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -40,7 +41,7 @@ def test_the_csv_has_a_row_for_each_segment(service, address, document):
     """The same cuts as the document's, in seconds of the file's clock too."""
     answer = service.http.get(f"{address}/result.csv")
     assert answer.headers["Content-Type"].startswith("text/csv")
-    assert answer.text.startswith("name,motion,start,end,start_seconds,end_seconds\n")
+    assert answer.text.startswith("name,motion,start,end,start_seconds,end_seconds,confidence,loop,discard\n")
     assert [(r["name"], int(r["start"]), int(r["end"])) for r in rows(answer)] == [
         (s["name"], s["start"], s["end"]) for s in document["segments"]
     ]
@@ -74,6 +75,27 @@ def test_the_npz_holds_the_arrays(service, address, document):
     assert (part.status_code, part.content) == (206, answer.content[:4])
 
 
+def test_elan_reads_it(service, address, document):
+    """An annotation of each segment and of each key-frame."""
+    answer = service.http.get(f"{address}/result.eaf")
+    assert answer.headers["Content-Type"].startswith("text/x-eaf+xml")
+    tiers = {tier.get("TIER_ID"): len(tier) for tier in ElementTree.fromstring(answer.text).iter("TIER")}
+    assert tiers["motions"] == len(document["segments"])
+    assert tiers["key-frames"] == len(document["key_frames"])
+
+
+def test_there_is_a_plot_of_it(service, address):
+    """As text at once, as pixels made by a worker; no script could run in it."""
+    drawn = service.http.get(f"{address}/plot.svg")
+    assert (drawn.status_code, drawn.headers["Content-Type"].partition(";")[0]) == (200, "image/svg+xml")
+    assert drawn.text.startswith("<svg ")
+    assert "default-src 'none'" in drawn.headers["Content-Security-Policy"]
+    pixels = service.http.get(f"{address}/plot.png", headers={"Prefer": "wait=20"})
+    assert (pixels.status_code, pixels.headers["Content-Type"]) == (200, "image/png")
+    assert pixels.content.startswith(b"\x89PNG")
+    assert service.http.get(f"{address}/plot.pdf").status_code == 404
+
+
 @pytest.mark.parametrize(
     ("accept", "media_type"),
     [
@@ -101,7 +123,9 @@ def test_a_form_that_there_is_not_is_refused_with_those_there_are(service, addre
     assert all("csv" in answer.json()["detail"] for answer in asked)
 
 
-@pytest.mark.parametrize("path", ["result", "result.csv", "result.csv?table=frames", "viewer/model"])
+@pytest.mark.parametrize(
+    "path", ["result", "result.csv", "result.csv?table=frames", "result.eaf", "plot.svg", "viewer/model"]
+)
 def test_what_does_not_change_is_not_sent_twice(service, address, path):
     """304 to who sends the tag back; each form has a tag of its own."""
     first = service.http.get(f"{address}/{path}")

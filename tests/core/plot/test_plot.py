@@ -1,0 +1,118 @@
+"""A result as the paper's figures show one: as SVG for the web process, as PNG with Pillow."""
+
+import io
+import re
+import subprocess
+import sys
+from itertools import pairwise
+from xml.etree import ElementTree
+
+import pytest
+from PIL import Image
+
+from core.document import KeyFrame, Segment, SegmentationDocument, Source, motion_name
+from core.plot.layout import COLOURS, DISCARDED, picture_of
+from core.plot.picture import Box, Dot, Label, Line
+from core.plot.png import SCALE, png
+from core.plot.svg import svg
+
+
+def document(cuts=(60, 100), frames=200, names=(), energy=None, discard=(), start=0.0):
+    """A result of frames at 30 a second; its motions are all different, or named so."""
+    bounds = [0, *cuts, frames]
+    called = [*names] or [motion_name(i) for i in range(len(cuts) + 1)]
+    segments = tuple(
+        Segment(start=a, end=b, start_seconds=start + a / 30, end_seconds=start + b / 30, motion=i, name=n,
+                discard=i in discard)
+        for i, (a, b, n) in enumerate(zip(bounds[:-1], bounds[1:], called, strict=True))
+    )  # fmt: skip
+    curve = energy or tuple(None if f < 20 or f >= frames - 20 else 1 + f % 40 / 40 for f in range(frames))
+    keys = tuple(
+        KeyFrame(frame=f, seconds=f / 30, energy=e, motion=0) for f, e in enumerate(curve) if e and f % 80 == 0
+    )
+    return SegmentationDocument(
+        algorithm="1", method="switching", parameters={}, source=Source(take=0, name="t", fps=30, start_seconds=start),
+        frames=frames, frame_rate=30, duration_seconds=(frames - 1) / 30, motions=len(segments), segments=segments,
+        key_frames=keys, energy=curve,
+    )  # fmt: skip
+
+
+def of(kind, found):
+    return [shape for shape in picture_of(found).shapes if isinstance(shape, kind)]
+
+
+def test_it_shows_curve_key_frames_cuts_and_segments():
+    """A box for each segment, side by side; a dashed line for each cut; a dot on the curve for each key-frame."""
+    found = document()
+    boxes = of(Box, found)
+    assert [box.fill for box in boxes] == list(COLOURS[:3])
+    assert all(a.x + a.width == pytest.approx(b.x) for a, b in pairwise(boxes))
+    assert [line.points[0][0] for line in of(Line, found) if line.dashed] == [box.x for box in boxes[1:]]
+    assert len(of(Dot, found)) == len(found.key_frames)
+    assert {"A", "B", "C", "energy (nats)", "seconds"} <= {label.text for label in of(Label, found)}
+
+
+def test_what_is_discarded_is_grey():
+    """So that a figure of a revision says so."""
+    assert [box.fill for box in of(Box, document(discard=[1]))] == [COLOURS[0], DISCARDED, COLOURS[2]]
+
+
+def test_a_session_is_drawn_in_few_points():
+    """72,000 frames in a column of pixels each: their extremes are kept, and the file is small."""
+    energy = tuple(1.0 if f != 50_001 else 9.0 for f in range(72_000))
+    found = document(cuts=[40_000], frames=72_000, energy=energy)
+    highest = min(y for line in of(Line, found) for _, y in line.points if line.width == 1.5)
+    assert highest < 30
+    assert len(svg(picture_of(found))) < 100_000
+    assert "minutes" in {label.text for label in of(Label, found)}
+
+
+@pytest.mark.parametrize(
+    "found",
+    [
+        document(cuts=(), frames=1, energy=(None,)),
+        document(cuts=(), frames=2, energy=(0.0, 0.0)),
+        document(cuts=(1,), frames=2, energy=(1e-300, None)),
+        document(cuts=range(1, 2000), frames=2000),
+        document(start=1e6),
+    ],
+)
+def test_odd_results_are_drawn_too(found):
+    """One frame, no curve, a flat one, 2,000 segments of a frame each, a clock that is late."""
+    picture = picture_of(found)
+    ElementTree.fromstring(svg(picture))
+    assert Image.open(io.BytesIO(png(picture))).size == (picture.width * SCALE, picture.height * SCALE)
+
+
+HOSTILE = '</text><script>alert("1")</script>&amp;\x00\x1b\ufffe'
+
+
+def test_a_name_stays_a_name():
+    """Nothing in it is markup, and what XML cannot hold is left out."""
+    text = svg(picture_of(document(cuts=(), names=[HOSTILE])))
+    root = ElementTree.fromstring(text)
+    assert "script" not in {element.tag.rpartition("}")[2] for element in root.iter()}
+    assert '</text><script>alert("1")</script>&amp;' in {element.text for element in root.iter()}
+
+
+def test_a_name_that_the_font_lacks_is_still_named():
+    """Pillow's font has plain letters alone: accents are left away in the PNG, and for ideographs stands a letter."""
+    drawn = {name: png(picture_of(document(names=[name, "B", "C"]))) for name in ("A", "歩く", "été", "ete")}
+    assert drawn["歩く"] == drawn["A"]
+    assert drawn["été"] == drawn["ete"] != drawn["A"]
+
+
+def test_the_same_result_is_the_same_bytes():
+    """Also in another process, whatever its hashes are."""
+    program = (
+        "import hashlib; from tests.core.plot.test_plot import *;"
+        "print(hashlib.sha256(svg(picture_of(document())).encode() + png(picture_of(document()))).hexdigest())"
+    )
+    said = [subprocess.run([sys.executable, "-c", program], capture_output=True, check=True).stdout for _ in range(2)]
+    assert said[0] == said[1]
+
+
+def test_colours_are_those_of_the_page(checkout):
+    """A motion looks the same in the page and in the paper."""
+    page = (checkout / "service/static/viewer/palette.js").read_text(encoding="utf-8")
+    assert tuple(re.findall(r"'(#[0-9a-f]{6})',", page.partition("];")[0])) == COLOURS
