@@ -21,6 +21,7 @@ class Limits(BaseModel):
     max_frames: int = Field(1_000_000, gt=0, description="frames of the take at the chosen rate")
     max_seconds: float = Field(4 * 3600.0, gt=0, description="seconds of the take")
     max_triangle_frames: int = Field(5_000_000_000, gt=0, description="frames x triangles, the work")
+    max_node_frames: int = Field(1_000_000_000, gt=0, description="frames x nodes that are posed")
     max_decoded_bytes: int = Field(2**30, gt=0, description="bytes of static data (accessors, palettes), decoded")
     max_nodes: int = Field(50_000, gt=0, description="nodes of the scene")
     max_primitives: int = Field(10_000, gt=0, description="mesh primitives")

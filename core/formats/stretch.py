@@ -19,7 +19,7 @@ def stretch(parameters: Parameters, duration: float, first_key: float = 0.0) -> 
     return start, end
 
 
-def counted(limits: Limits, seconds: float, rate: float, triangles: int) -> int:
+def counted(limits: Limits, seconds: float, rate: float, triangles: int, nodes: int = 0) -> int:
     """Frames of so many seconds, compared with the limits while they are still a float."""
     limits.check("max_seconds", seconds, "Send start and end for a part of it")
     frames = frame_count(seconds, rate)
@@ -27,4 +27,5 @@ def counted(limits: Limits, seconds: float, rate: float, triangles: int) -> int:
     limits.check(
         "max_triangle_frames", frames * triangles, "Send a lower fps, start and end for a part of it, or a lighter mesh"
     )
+    limits.check("max_node_frames", frames * nodes, "Send a lower fps, start and end for a part of it, or fewer nodes")
     return int(frames)

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from core.animation import Take, Vertices
 from core.errors import ParameterError
@@ -22,6 +23,13 @@ Pose = Callable[[Tracks, float], PosedVertices]
 """Makes the vertices of a take, its frame 0 at some second."""
 
 
+class Size(NamedTuple):
+    """What is drawn in every frame, and what is posed for it."""
+
+    triangles: int
+    nodes: int
+
+
 @dataclass(frozen=True)
 class Course:
     """Frames to draw, their number, the second of the first one, and the take that they are of."""
@@ -33,11 +41,11 @@ class Course:
 
 
 def one_take(
-    chosen: ChosenTake, tracks: Tracks, pose: Pose, rate: float, triangles: int, parameters: Parameters, limits: Limits
+    chosen: ChosenTake, tracks: Tracks, pose: Pose, rate: float, size: Size, parameters: Parameters, limits: Limits
 ) -> Course:
     """A take, or the part of it that the parameters name."""
     start, end = stretch(parameters, tracks.duration, tracks.first)
-    frames = counted(limits, end - start, rate, triangles)
+    frames = counted(limits, end - start, rate, size.triangles, size.nodes)
     take = Take(chosen.index, chosen.name, tracks.duration, frames, rate)
     return Course(pose(tracks, start), frames, start, take)
 
@@ -47,7 +55,7 @@ def all_takes(
     tracks: list[Tracks],
     pose: Pose,
     rate: float,
-    triangles: int,
+    size: Size,
     parameters: Parameters,
     limits: Limits,
     notices: Notices,
@@ -63,7 +71,7 @@ def all_takes(
     if from_frame >= until:
         detail = f"Nothing is left from {parameters.start:g} s on: all takes are {sum(lengths) / rate:g} s long."
         raise ParameterError("outside-take", detail, parameter="start")
-    counted(limits, (until - 1) / rate, rate, triangles)
+    counted(limits, (until - 1) / rate, rate, size.triangles, size.nodes)
     frames = int(until) - from_frame
     first = [0]
     for length in lengths:

@@ -10,7 +10,7 @@ from core.errors import InvalidModel
 from core.formats.frame_rate import ASSUMED, key_rate
 from core.formats.gltf.accessors import Accessors
 from core.formats.gltf.channels import Channel
-from core.formats.gltf.course import all_takes, one_take
+from core.formats.gltf.course import Size, all_takes, one_take
 from core.formats.gltf.document import Document
 from core.formats.gltf.figure import Figure, joints_figure, read_figure, still_weights
 from core.formats.gltf.key_times import MOST_KEYS
@@ -40,10 +40,11 @@ def read_gltf(data: memoryview, parts: Mapping[str, memoryview], parameters: Par
     def pose(take: Tracks, start: float) -> PosedVertices:
         return PosedVertices(figure, skeleton, take, weight_slots, rate, start)
 
+    size = Size(len(figure.triangles), len(skeleton.parent))
     if len(chosen) == 1:
-        course = one_take(chosen[0], tracks[0], pose, rate, len(figure.triangles), parameters, limits)
+        course = one_take(chosen[0], tracks[0], pose, rate, size, parameters, limits)
     else:
-        course = all_takes(chosen, tracks, pose, rate, len(figure.triangles), parameters, limits, document.notices)
+        course = all_takes(chosen, tracks, pose, rate, size, parameters, limits, document.notices)
     return Animation(
         vertices=course.vertices,
         vertex_count=len(figure.positions),

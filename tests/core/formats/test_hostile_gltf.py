@@ -372,6 +372,13 @@ def _zeros(accessor: int, count: int) -> Mutation:
     return mutate
 
 
+def _many_nodes_for_hours(model: Glb) -> None:
+    """A chain that moves one square, whose last key is after three hours."""
+    model.json["nodes"] += [{"children": [i]} for i in range(49_000)]
+    model.json["scenes"] = [{"nodes": [49_000]}]
+    _data(TIMES, 30, 10_000)(model)
+
+
 def _many_takes(model: Glb) -> None:
     model.json["animations"] *= 20_000
 
@@ -395,6 +402,8 @@ def _many_takes(model: Glb) -> None:
         pytest.param(_node(0), Limits(max_frames=30), "CAESURA_MAX_FRAMES", id="frames"),
         pytest.param(_node(0), Limits(max_seconds=0.5), "CAESURA_MAX_SECONDS", id="seconds"),
         pytest.param(_node(0), Limits(max_triangle_frames=61), "CAESURA_MAX_TRIANGLE_FRAMES", id="work"),
+        pytest.param(_node(0), Limits(max_node_frames=30), "CAESURA_MAX_NODE_FRAMES", id="poses"),
+        pytest.param(_many_nodes_for_hours, Limits(), "CAESURA_MAX_NODE_FRAMES", id="49,000 nodes for hours"),
     ],
 )  # fmt: skip
 def test_a_file_that_unfolds_too_far_is_refused_by_its_limit(mutate: Mutation, limits: Limits, setting: str) -> None:

@@ -17,8 +17,11 @@ MODELS = [
     ("gltf/CesiumMan.glb", 0, [1]),
     ("gltf/Horse.glb", 0, [1]),
     *(("gltf/InterpolationTest/InterpolationTest.gltf", take, [1]) for take in range(9)),
+    ("takes/fox_hard_0.glb", 0, [6, 17]),
     ("takes/fox_hard_1.glb", 0, [4, 9, 16]),
+    ("takes/godotman_hard_0.glb", 0, [8]),
     ("takes/godotman_hard_1.glb", 0, [5, 13, 21]),
+    ("takes/ybot_hard_0.glb", 0, [11]),
 ]
 
 
