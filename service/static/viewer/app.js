@@ -80,13 +80,14 @@ async function follow(id, signal) {
     if (now.name) $('waiting-name').textContent = now.name;
     statusProgress(now);
   }, signal);
-  const revision = revisionOfAddress() ?? status.revision ?? 0;
-  const result = await api.result(id, revision);
+  const viewer = api.viewer(id); // asked for beside the result, as the figure takes longest
+  viewer.catch(() => {}); // said where it is shown
+  const result = await api.result(id, revisionOfAddress() ?? status.revision ?? 0);
   if (signal.aborted) return;
-  show({ ...result, id });
+  show({ ...result, id }, viewer);
 }
 
-function show(result) {
+function show(result, viewer) {
   shown?.close();
   face('result', status.name);
   $('subject').textContent = [status.name, about(result)].filter(Boolean).join(' · ');
@@ -95,7 +96,7 @@ function show(result) {
   const frame = frameOfAddress();
   if (frame !== null) shown.clock.seek(frame);
   shown.clock.listen(remember);
-  shown.presence.enter(result.id);
+  shown.presence.enter(result.id, viewer);
   changed();
 }
 

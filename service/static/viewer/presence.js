@@ -24,11 +24,11 @@ export class Presence {
   /** Whether a frame can be shown without waiting. */
   ready(frame) { return !this.#here || stage.figure.ready(frame); }
 
-  /** Bring the figure of a segmentation onto the stage; without it the rest of the page works all the same. */
-  async enter(id) {
+  /** Bring the figure of a segmentation, whose viewer document may be `asked` for already, onto the stage; without it the rest of the page works all the same. */
+  async enter(id, asked = api.viewer(id)) {
     try {
       this.tell('Loading the figure …');
-      const [viewer, { Stage }] = await Promise.all([api.viewer(id), import('./stage.js')]);
+      const [viewer, { Stage }] = await Promise.all([asked, import('./stage.js')]);
       if (this.#signal.aborted) return;
       stage ||= new Stage($('figure'));
       await stage.show(viewer, this.#signal, (share) => this.tell(`Loading the figure … ${Math.round(100 * share)} %`));

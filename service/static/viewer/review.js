@@ -21,6 +21,7 @@ export class Review {
     this.#span = span;
     this.#key = `caesura.checked.${id}`;
     this.#checked = new Set(stored(this.#key, []));
+    this.#list.replaceChildren();
     onCounting(() => { this.#drawn = null; this.show(); }, signal);
   }
 
@@ -31,8 +32,9 @@ export class Review {
   show() {
     const { segments } = this.#editor;
     if (this.#drawn !== segments) this.#draw(segments);
-    const chosen = this.#rows.get(this.#editor.cut);
-    for (const row of this.#list.querySelectorAll('[aria-current]')) if (row !== chosen) row.removeAttribute('aria-current');
+    const chosen = this.#rowOf(this.#editor.cut);
+    const marked = this.#list.querySelector('[aria-current]');
+    if (marked !== chosen) marked?.removeAttribute('aria-current');
     chosen?.setAttribute('aria-current', 'true');
     for (const id of ['around', 'checked']) $(id).disabled = this.#editor.cut < 0;
     const at = segments[this.#editor.cut];
@@ -46,7 +48,7 @@ export class Review {
     const next = open[(at + 1) % Math.max(1, open.length)];
     if (!next) return false;
     this.#choose(next.cut);
-    inView(this.#list, this.#rows.get(next.cut));
+    inView(this.#list, this.#rowOf(next.cut));
     return true;
   }
 
@@ -88,35 +90,58 @@ export class Review {
     return cuts.sort((one, other) => rank(one) - rank(other) || one.cut - other.cut);
   }
 
+  /** Bring the list to what the cuts are now, row by row: an edit changes a few of what may be hundreds. */
   #draw(segments) {
     this.#drawn = segments;
-    this.#rows.clear();
-    const rows = this.#order().map(({ segment, cut }) => make('li', {}, this.#row(segments, cut)));
-    this.#list.replaceChildren(...rows);
-    stop(this.#list, 'button');
-    const open = this.#open;
+    const order = this.#order();
+    const kept = new Map();
+    order.forEach(({ cut }, place) => {
+      const text = this.#text(segments, cut);
+      const row = this.#rows.get(text.key) || this.#row(segments, cut, text);
+      kept.set(text.key, row);
+      if (this.#list.children[place] !== row.parentElement) this.#list.insertBefore(row.parentElement, this.#list.children[place] || null);
+    });
+    while (this.#list.children.length > order.length) this.#list.lastChild.remove();
+    this.#rows = kept;
+    if (!this.#list.querySelector('[tabindex="0"]')) stop(this.#list, 'button');
+    this.#say(order);
+  }
+
+  #say(order) {
+    const open = order.filter(({ segment }) => this.#unchecked(segment));
     const doubtful = open.filter(({ segment }) => this.#doubtful(segment)).length;
     $('doubts').textContent = doubtful;
     $('doubts').hidden = !doubtful;
     $('doubtful').disabled = !open.length;
-    $('review-hint').textContent = !rows.length ? 'There are no cuts: the take is one segment.'
+    $('review-hint').textContent = !order.length ? 'There are no cuts: the take is one segment.'
       : open.length ? `${doubtful ? count(doubtful, 'cut is', 'cuts are') : 'No cut is'} in doubt. Least certain first.` : 'Every cut has been checked.';
   }
 
-  #row(segments, cut) {
+  /** What a row says, and a key that is another whenever the row must be. */
+  #text(segments, cut) {
     const [before, after] = [segments[cut], segments[cut + 1]];
-    const { confidence } = before;
-    const state = this.#checked.has(before.end) ? 'checked' : confidence === null ? 'set by hand' : `${Math.round(100 * confidence)} %`;
-    const row = make('button', { type: 'button', className: 'cut', tabIndex: -1, onclick: () => this.#choose(cut) },
+    const known = this.#checked.has(before.end) ? 'checked' : before.confidence === null ? 'set by hand' : null;
+    const state = known || `${Math.round(100 * before.confidence)} %`;
+    const frame = shownFrame(before.end);
+    return { frame, state, known, key: [frame, state, before.motion, before.name, after.motion, after.name].join('\n') };
+  }
+
+  #row(segments, cut, { frame, state, known }) {
+    const [before, after] = [segments[cut], segments[cut + 1]];
+    const at = () => this.#editor.segments.findIndex((segment) => segment.end === before.end);
+    const row = make('button', { type: 'button', className: 'cut', tabIndex: -1, onclick: () => this.#choose(at()) },
       swatch(before.motion), swatch(after.motion),
       make('span', { className: 'name' }, `${before.name} | ${after.name}`),
-      make('span', { className: 'from' }, shownFrame(before.end)),
+      make('span', { className: 'from' }, frame),
       make('span', { className: 'sure' }, state));
     row.classList.toggle('open', this.#doubtful(before));
-    row.setAttribute('aria-label', `Cut from ${before.name} to ${after.name} at frame ${shownFrame(before.end)}, ${confidence === null || this.#checked.has(before.end) ? state : `certain to ${state}`}`);
-    this.#rows.set(cut, row);
+    row.setAttribute('aria-label', `Cut from ${before.name} to ${after.name} at frame ${frame}, ${known || `certain to ${state}`}`);
+    make('li', {}, row);
     return row;
   }
+
+  /** The row of a cut, if it is listed. */
+  #rowOf(cut) { return cut < 0 ? null : this.#rows.get(this.#text(this.#editor.segments, cut).key); }
 }
 
 /** Wire the tools of the list once. */
