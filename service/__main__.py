@@ -3,11 +3,13 @@
 from service.app import create_app
 from service.server import Server
 from service.settings import ServiceSettings
+from worker import logs
 
 
 def main() -> None:
     """Serve until told to stop."""
     settings = ServiceSettings()
+    logs.configure(settings.log_format)
     Server(create_app(settings), settings.host, settings.port).run()
 
 

@@ -10,7 +10,10 @@ from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddle
 from service import errors, openapi
 from service.backend import opened
 from service.guard import Guard
+from service.headroom import Headroom, room
+from service.metrics import Metrics
 from service.queries import only_known
+from service.request_log import RequestLog
 from service.routes import about, animations, clips, health, pages, results, revisions, segmentations, session
 from service.security import SecurityHeaders
 from service.settings import ServiceSettings
@@ -36,13 +39,16 @@ def create_app(settings: ServiceSettings) -> FastAPI:
         redoc_url=None,
         generate_unique_id_function=openapi.operation_name,
     )
+    app.state.headroom = Headroom()
+    app.state.metrics = Metrics()
     errors.install(app)
     for routes in (animations, segmentations, results, revisions, clips, session, about, health):
-        app.include_router(routes.router, dependencies=[Depends(only_known)])
+        app.include_router(routes.router, dependencies=[Depends(only_known), Depends(room)])
     app.include_router(pages.router)
     pages.mount(app)
     openapi.describe(app)
     app.add_middleware(Guard, settings=settings)
     app.add_middleware(GZipMiddleware, compresslevel=6, exclude_content_types=(*DEFAULT_EXCLUDED_CONTENT_TYPES, *FILES))
     app.add_middleware(SecurityHeaders)
+    app.add_middleware(RequestLog, metrics=app.state.metrics)
     return app

@@ -103,6 +103,8 @@ def install(app: FastAPI) -> None:
     for unreachable in (redis.ConnectionError, redis.TimeoutError, redis.BusyLoadingError):
         app.exception_handler(unreachable)(_unavailable)
     app.exception_handler(StoreError)(_store_unavailable)
+    for full in (redis.OutOfMemoryError, redis.ReadOnlyError):
+        app.exception_handler(full)(_full)
     app.exception_handler(BlobMissing)(_no_longer_kept)
     app.exception_handler(OSError)(_storage)
     app.exception_handler(Exception)(_bug)
@@ -175,6 +177,12 @@ async def _store_unavailable(_: Request, error: Exception) -> Response:
     log.error("The object store does not answer: %s", str(error).partition("\n")[0])
     detail = "The store of files cannot be reached just now. Nothing is wrong with the request; try again shortly."
     return problem_response({"kind": "infrastructure", "code": "storage-unavailable", "detail": detail})
+
+
+async def _full(_: Request, error: Exception) -> Response:
+    log.error("Redis takes no more: %s", error)
+    detail = "The service has no room for this just now. Nothing was kept; try again later."
+    return problem_response({"kind": "infrastructure", "code": "not-ready", "detail": detail})
 
 
 async def _bug(_: Request, __: Exception) -> Response:

@@ -11,7 +11,13 @@ GOODBYE_SECONDS = 3  # for answers that are under way
 def configuration(app: FastAPI, host: str = "127.0.0.1", port: int = 0) -> uvicorn.Config:
     """How every web process of ours runs uvicorn."""
     return uvicorn.Config(
-        app, host, port, timeout_graceful_shutdown=GOODBYE_SECONDS, access_log=False, server_header=False
+        app,
+        host,
+        port,
+        timeout_graceful_shutdown=GOODBYE_SECONDS,
+        access_log=False,  # service/request_log.py says more
+        log_config=None,  # worker/logs.py says how
+        server_header=False,
     )
 
 

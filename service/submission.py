@@ -6,7 +6,7 @@ from core.formats.takes import choose_take
 from core.parameters import ALGORITHM, TOLD_MOTIONS, Parameters
 from service.backend import Backend
 from service.errors import Refusal
-from worker import ids
+from worker import ids, logs
 from worker.alternatives import recall
 from worker.schema import AnimationRecord, SegmentationRecord
 
@@ -40,6 +40,7 @@ def submit(backend: Backend, animation: AnimationRecord, parameters: Parameters,
         animation=animation.id,
         owner=animation.owner,
         name=name or animation.name,
+        request=logs.request_id(),
         parameters=chosen.model_dump(),
         algorithm=ALGORITHM,
         created=now,

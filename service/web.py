@@ -6,6 +6,7 @@ import socket
 from service.app import create_app
 from service.server import Server
 from service.settings import ServiceSettings
+from worker import logs
 
 
 def main() -> None:
@@ -13,7 +14,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m service.web")
     parser.add_argument("--socket", type=int, required=True, help="number of the inherited, bound socket")
     listening = socket.socket(fileno=parser.parse_args().socket)
-    Server(create_app(ServiceSettings())).run(sockets=[listening])
+    settings = ServiceSettings()
+    logs.configure(settings.log_format)
+    Server(create_app(settings)).run(sockets=[listening])
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ python -m worker --check                            exit status 0 where a worker
 
 import argparse
 import gc
-import logging
 import os
 import sys
 from collections.abc import Sequence
@@ -16,6 +15,7 @@ from pathlib import Path
 
 from redis.exceptions import RedisError
 
+from worker import logs
 from worker.horses import CaesuraWorker, alive_here
 from worker.jobs import QUEUES, Jobs
 from worker.leftovers import clear
@@ -24,7 +24,6 @@ from worker.records import connect
 from worker.settings import WorkerSettings
 
 DEFAULT_GROUPS = [["analyse", "cut"], ["cut"]]
-LOG_FORMAT = "%(asctime)s %(levelname)s %(name)s: %(message)s"
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -36,7 +35,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     settings = WorkerSettings()
     if options.check:
         sys.exit(0 if _alive(settings) else 1)
-    logging.basicConfig(level=logging.INFO, format=LOG_FORMAT)
+    logs.configure(settings.log_format)
     run(settings, options.queues or DEFAULT_GROUPS)
 
 

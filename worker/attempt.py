@@ -9,6 +9,7 @@ from obstore.exceptions import BaseError as StoreError
 from redis.exceptions import RedisError
 
 from core.errors import CaesuraError
+from worker import logs, tallies
 from worker.blobs import BlobMissing
 from worker.jobs import Jobs, TimeLimit, worker_problem
 from worker.schema import SegmentationRecord
@@ -51,6 +52,8 @@ class Attempt:
         self.records = jobs.records
         self.jobs = jobs
         self.record = record
+        self.stage_seconds: dict[str, float] = {}
+        self._stage_began = time.monotonic()
         self._told = 0.0
         self._stage = ""
         self._fraction = 0.0
@@ -63,10 +66,20 @@ class Attempt:
         now = time.monotonic()
         if stage == self._stage and now - self._told < TELL_SECONDS:
             return
+        if stage != self._stage:
+            self.end_stage()
         fraction = min(max(fraction, 0.0, self._fraction if stage == self._stage else 0.0), 1.0)
         self._told, self._stage, self._fraction = now, stage, fraction
         if self.records.of_attempt(self.record.token, self.record.id, stage=stage, fraction=fraction) is None:
             raise Superseded
+
+    def end_stage(self) -> None:
+        """Count how long the stage took that is over now."""
+        now = time.monotonic()
+        if self._stage:
+            before = self.stage_seconds.get(self._stage, 0.0)
+            self.stage_seconds[self._stage] = before + now - self._stage_began
+        self._stage_began = now
 
     def fail(self, problem: dict[str, Any]) -> None:
         """End it with a problem."""
@@ -88,10 +101,18 @@ def carry_out(jobs: Jobs, identifier: str, token: str, work: Callable[[Attempt],
         log.info("%s: this attempt is no longer wanted", identifier)
         return
     attempt = Attempt(jobs, record)
+    with logs.about(request=record.request, segmentation=identifier):
+        _carried_out(attempt, work)
+        attempt.end_stage()
+        tallies.count_stages(jobs.redis, attempt.stage_seconds)
+        log.info("attempt %d ended", record.attempt, extra={"told": _milliseconds(attempt.stage_seconds)})
+
+
+def _carried_out(attempt: Attempt, work: Callable[[Attempt], None]) -> None:
     try:
         work(attempt)
     except Superseded:
-        log.info("%s: stopped, for it is no longer wanted", identifier)
+        log.info("stopped, for it is no longer wanted")
     except CaesuraError as refusal:
         attempt.fail(refusal.problem())
     except BlobMissing:
@@ -106,3 +127,8 @@ def carry_out(jobs: Jobs, identifier: str, token: str, work: Callable[[Attempt],
     except BaseException:  # a panic of the store's library is no Exception
         attempt.fail(INTERNAL_ERROR)
         raise
+
+
+def _milliseconds(seconds: dict[str, float]) -> dict[str, int]:
+    """How long each stage took, for the log."""
+    return {f"{stage}_ms": round(took * 1000) for stage, took in seconds.items()}

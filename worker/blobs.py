@@ -125,6 +125,11 @@ class Blobs:
         with suppress(BlobMissing), _missing(key):
             obstore.delete(self._store, key)
 
+    def reach(self) -> None:
+        """Ask the store for what is not there; raises OSError or obstore's `BaseError` where it does not answer."""
+        with suppress(NotFoundError, FileNotFoundError):
+            obstore.head(self._store, "reach")
+
     def all(self) -> Iterator[tuple[str, int]]:
         """Every blob, with its size in bytes; what is being written is not among them."""
         for page in obstore.list(self._store):

@@ -24,7 +24,7 @@ from rq.job import Job
 from rq.serializers import JSONSerializer
 from rq.timeouts import JobTimeoutException as TimeLimit
 
-from worker import ids, keys
+from worker import ids, keys, tallies
 from worker.records import Records, connect
 from worker.schema import ExportRecord, Queue, SegmentationRecord
 from worker.settings import WorkerSettings
@@ -102,8 +102,12 @@ class Jobs:
         """How many jobs come before it in its queue; None where it does not wait there."""
         if record.status != "queued":
             return None
-        found = self.redis.lpos(self._queues[record.queue].key, record.token)
+        found = self.redis.lpos(self.queue_key(record.queue), record.token)
         return found if isinstance(found, int) else None
+
+    def queue_key(self, name: Queue) -> str:
+        """The list that a queue is in Redis."""
+        return str(self._queues[name].key)
 
     def depths(self) -> dict[str, int]:
         """How many jobs wait in each queue."""
@@ -146,7 +150,11 @@ class Jobs:
                 return record.with_(status="failed", problem=problem)
             return self._attempt(record, attempt=record.attempt + 1)
 
-        after = self.records.change(identifier, change, self._enqueue)
+        def also(pipe: Pipeline, after: SegmentationRecord) -> None:
+            self._enqueue(pipe, after)
+            tallies.count_lost(pipe, problem["code"])
+
+        after = self.records.change(identifier, change, also)
         if after is not None:
             log.warning("%s: attempt lost (%s), now %s", identifier, problem["code"], after.status)
         return after

@@ -21,6 +21,7 @@
 | caesura:export:ID:FORM | string | ExportRecord, JSON; the form is a name and its options |
 | caesura:exports:ID | set | the forms that were ever asked for |
 | caesura:swept | string, expires | somebody looked lately for what is kept too long |
+| caesura:tally | hash | what workers have counted; `worker.tallies` |
 | caesura:doubted | hash | keys of blobs that no record pointed to when it was looked last, each with since when |
 | caesura:store | hash | kinds of blobs, each with the bytes they took when it was looked last |
 | caesura:keys | hash | names of API keys, each with its digest |
@@ -35,6 +36,7 @@ from typing import Literal
 LIVE_KEY = "caesura:live"
 USED_KEY = "caesura:used"
 SWEPT_KEY = "caesura:swept"
+TALLY_KEY = "caesura:tally"
 DOUBTED_KEY = "caesura:doubted"
 STORE_KEY = "caesura:store"
 API_KEYS_KEY = "caesura:keys"

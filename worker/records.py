@@ -7,7 +7,7 @@ from typing import Any
 import redis
 from redis.client import Pipeline
 
-from worker import keys
+from worker import keys, tallies
 from worker.schema import AnalysisRecord, AnimationRecord, ExportRecord, SegmentationRecord
 
 LEASE_SECONDS = 20  # an attempt whose worker gave no sign for so long is lost
@@ -148,6 +148,7 @@ class Records:
                 after = after.with_(updated=time.time())
                 pipe.multi()
                 self._write(pipe, after)
+                tallies.count_change(pipe, before, after)
                 if also is not None:
                     also(pipe, after)
                 try:

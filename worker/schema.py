@@ -97,6 +97,7 @@ class SegmentationRecord(_Record):
     queued -> running -> done | failed | cancelled. `token` names the current attempt: whoever holds another
     can no longer write. `problem` is what `CaesuraError.problem()` gave, or one of kind `worker`, which is not
     the file's fault: posting the same again then starts anew. `parameters` are complete, defaults filled in.
+    `request` is the id of the request that asked for it first.
     `segments` are the computed ones; `revision` is the number of the newest revision of them, 0 without any.
     """
 
@@ -104,6 +105,7 @@ class SegmentationRecord(_Record):
     animation: str
     owner: str = ""
     name: str = ""
+    request: str = ""
     parameters: dict[str, Any]
     algorithm: str
     status: Status = "queued"

@@ -2,6 +2,7 @@
 
 import os
 from pathlib import Path
+from typing import Literal
 from urllib.parse import quote
 
 from pydantic import AliasChoices, Field
@@ -37,6 +38,9 @@ class WorkerSettings(Limits, BaseSettings):
     stop_seconds: float = Field(5.0, ge=0, description="seconds a running job gets to end before it is handed back")
     keep_upload_days: float = Field(7.0, gt=0, description="days an upload and its analyses stay after their last use")
     keep_result_days: float = Field(30.0, gt=0, description="days a result stays")
+
+    log_format: Literal["text", "json"] = Field("text", description="log lines: `text` for people, `json` for machines")
+    min_free_bytes: int = Field(512 * 2**20, ge=0, description="bytes that stay free on the disk; below, no new work")
 
     @property
     def limits(self) -> Limits:

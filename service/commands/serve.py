@@ -1,6 +1,5 @@
 """`caesura serve`: everything on one machine."""
 
-import logging
 from typing import Any
 
 import click
@@ -8,8 +7,6 @@ from pydantic import ValidationError
 
 from core.errors import ParameterError
 from service.commands.problems import Command, Unreachable
-
-LOG_FORMAT = "%(asctime)s %(levelname)s %(name)s: %(message)s"
 
 
 @click.command(cls=Command)
@@ -24,11 +21,12 @@ def serve(**given: Any) -> None:
     """
     from service.settings import ServiceSettings
     from service.supervisor import serve as supervise
+    from worker import logs
     from worker.redis_server import ServerUnavailable
 
-    logging.basicConfig(level=logging.INFO, format=LOG_FORMAT)
     try:
         settings = ServiceSettings(**{name: value for name, value in given.items() if value is not None})
+        logs.configure(settings.log_format)
         supervise(settings)
     except ValidationError as refused:
         first = refused.errors()[0]

@@ -1,16 +1,14 @@
 """Whether the service lives, whether it can work, and what it has to do."""
 
-import os
-import resource
-import sys
-
 from anyio import to_thread
-from fastapi import APIRouter, Response
+from fastapi import APIRouter, Request, Response
 from fastapi.responses import JSONResponse, PlainTextResponse
-from redis.exceptions import RedisError
+from prometheus_client import CONTENT_TYPE_LATEST
 
-from service.backend import Backend, Behind
+from service.backend import Behind
 from service.errors import Refusal
+from service.headroom import look
+from service.metrics import Metrics
 
 router = APIRouter(tags=["health"])
 
@@ -23,33 +21,16 @@ async def alive() -> Response:
 
 @router.get("/readyz")
 async def ready(backend: Behind) -> Response:
-    """Whether Redis and the data folder can be used; 503 says which cannot."""
-    try:
-        await to_thread.run_sync(_check, backend)
-    except (RedisError, OSError) as fault:
-        what = "Redis" if isinstance(fault, RedisError) else "the data folder"
-        raise Refusal("not-ready", f"The service cannot use {what} just now. Try again shortly.") from fault
+    """Whether Redis, the disk and the store can be used and have room for more work; 503 says what has not."""
+    wrong = await to_thread.run_sync(look, backend)
+    if wrong:
+        raise Refusal("not-ready", wrong)
     return JSONResponse({"status": "ready"})
 
 
-def _check(backend: Backend) -> None:
-    backend.jobs.redis.ping()
-    backend.spool.mkdir(parents=True, exist_ok=True)
-    if not os.access(backend.spool, os.W_OK):
-        raise PermissionError(f"{backend.spool} cannot be written")
-
-
 @router.get("/metrics", response_class=PlainTextResponse)
-async def metrics(backend: Behind) -> Response:
-    """Prometheus' text form: jobs that wait, and the memory of this process."""
-    depths = await to_thread.run_sync(backend.jobs.depths)
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
-    lines = [
-        "# HELP caesura_queue_jobs Jobs that wait in a queue.",
-        "# TYPE caesura_queue_jobs gauge",
-        *(f'caesura_queue_jobs{{queue="{name}"}} {depth}' for name, depth in depths.items()),
-        "# HELP caesura_web_peak_memory_bytes Largest resident memory of the web process.",
-        "# TYPE caesura_web_peak_memory_bytes gauge",
-        f"caesura_web_peak_memory_bytes {peak}",
-    ]
-    return PlainTextResponse("\n".join(lines) + "\n", media_type="text/plain; version=0.0.4")
+async def metrics(request: Request, backend: Behind) -> Response:
+    """For Prometheus: requests, queues, jobs and their stages, the store. See docs/operations.md."""
+    counted: Metrics = request.app.state.metrics
+    text = await to_thread.run_sync(counted.text, backend)
+    return Response(text, headers={"Content-Type": CONTENT_TYPE_LATEST})

@@ -1,0 +1,82 @@
+"""Log lines for people and for machines: one line an event, with the id of the request that it is about.
+
+The id goes from the request to the job through the record, so that one search finds both. Nothing is logged that opens
+anything: no key, no cookie, no query, no body.
+"""
+
+import json
+import logging
+import re
+import secrets
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from datetime import UTC, datetime
+from typing import Literal
+
+Form = Literal["text", "json"]
+
+TEXT = "%(asctime)s %(levelname)s %(name)s: %(message)s"
+
+_ABOUT: ContextVar[dict[str, str]] = ContextVar("about", default={})  # noqa: B039  never changed, only replaced
+_GIVEN = re.compile(r"[A-Za-z0-9._:-]{1,64}")
+
+
+@contextmanager
+def about(**ids: str) -> Iterator[None]:
+    """What is logged in this block is about these: `request`, `segmentation`, …"""
+    before = _ABOUT.set({**_ABOUT.get(), **{name: value for name, value in ids.items() if value}})
+    try:
+        yield
+    finally:
+        _ABOUT.reset(before)
+
+
+def request_id() -> str:
+    """The id of the request that is being worked on; empty where there is none."""
+    return _ABOUT.get().get("request", "")
+
+
+def safe_request_id(given: str) -> str:
+    """An id that came from outside, where it is one; else a new one. It will stand in logs and headers."""
+    return given if _GIVEN.fullmatch(given) else secrets.token_hex(8)
+
+
+def configure(form: Form) -> None:
+    """Everything to stderr, in this form."""
+    handler = logging.StreamHandler()
+    handler.setFormatter(JsonLines() if form == "json" else TextLines(TEXT))
+    logging.basicConfig(level=logging.INFO, handlers=[handler], force=True)
+
+
+class TextLines(logging.Formatter):
+    """A line for people: `… message request=ID key=value`."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        """The line; a traceback follows on lines of its own."""
+        said = [f" {name}={value}" for name, value in _values(record).items()]
+        head, line, rest = super().format(record).partition("\n")
+        return head + "".join(said) + line + rest
+
+
+class JsonLines(logging.Formatter):
+    """A line for machines: one JSON object, a traceback included."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        """The line."""
+        told: dict[str, object] = {
+            "time": datetime.fromtimestamp(record.created, UTC).isoformat(timespec="milliseconds"),
+            "level": record.levelname,
+            "logger": record.name,
+            "message": record.getMessage(),
+            **_values(record),
+        }
+        if record.exc_info:
+            told["traceback"] = self.formatException(record.exc_info)
+        return json.dumps(told, ensure_ascii=False)
+
+
+def _values(record: logging.LogRecord) -> dict[str, object]:
+    """What the line is about, and what it was given beside its message: `log.info("…", extra={"told": {…}})`."""
+    told: dict[str, object] = getattr(record, "told", {})
+    return {**_ABOUT.get(), **told}
