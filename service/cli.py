@@ -1,5 +1,8 @@
 """`caesura`: the command. Each subcommand lives in service/commands."""
 
+import io
+import sys
+
 import click
 
 from service.commands.demo import demo
@@ -19,6 +22,9 @@ def main() -> None:
 
     Exit codes: 0 done, 2 wrong usage, 3 bad file, 4 server unreachable or unable.
     """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # a console of few letters must not end a night's batch
+            stream.reconfigure(errors="backslashreplace")
 
 
 for command in (serve, worker, keys, segment, submit, score, demo):

@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 from urllib.parse import unquote
 
+import numpy as np
 import pytest
 
 from core.errors import KINDS
@@ -102,3 +103,12 @@ def test_make_help_lists_every_target(checkout: Path) -> None:
     (phony,) = re.findall(r"^\.PHONY: (.+)$", makefile, re.MULTILINE)
     assert set(re.findall(r'@echo "make ([a-z]+) ', makefile)) | {"help"} == set(phony.split())
     assert set(phony.split()) == set(re.findall(r"^([a-z]+):", makefile, re.MULTILINE))
+
+
+def test_the_readme_tells_what_python_offers(checkout: Path) -> None:
+    """Its Python block runs as it stands, on arrays of the shapes that it names."""
+    (block,) = re.findall(r"```python\n(.*?)```", (checkout / "README.md").read_text(encoding="utf-8"), re.DOTALL)
+    swing = np.sin(np.arange(120) / 5)[:, None]
+    vertices = np.random.default_rng(0).normal(size=(1, 20, 3)) + np.stack([0 * swing, swing, 0 * swing], 2) * 0.1
+    triangles = np.arange(18).reshape(6, 3)
+    exec(block, {"vertices": vertices * (1 + swing[..., None] / 9), "triangles": triangles, "features": vertices[:, 0]})
