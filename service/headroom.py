@@ -8,7 +8,7 @@ import os
 import shutil
 import time
 
-from anyio import to_thread
+from anyio import move_on_after, to_thread
 from fastapi import Request
 from obstore.exceptions import BaseError as StoreError
 from redis import Redis
@@ -21,6 +21,7 @@ FULL = 0.8
 """Share of the memory that Redis may use above which no more work is taken."""
 
 BELIEVED_SECONDS = 1.0
+PATIENCE_SECONDS = 3.0
 
 
 class Headroom:
@@ -34,13 +35,19 @@ class Headroom:
         """What there is no room in, or what does not answer, as a sentence; empty where all is well."""
         now = time.monotonic()
         if now - self._seen >= BELIEVED_SECONDS:
-            self._wrong = await to_thread.run_sync(look, backend)
+            self._wrong = await looked(backend)
             self._seen = now
         return self._wrong
 
 
-def look(backend: Backend) -> str:
-    """The same, looked at now. Blocks."""
+async def looked(backend: Backend) -> str:
+    """The same, looked at now; what takes too long to answer does not answer."""
+    with move_on_after(PATIENCE_SECONDS):
+        return await to_thread.run_sync(_look, backend, abandon_on_cancel=True)
+    return "The service waits for its Redis or its store."
+
+
+def _look(backend: Backend) -> str:
     settings = backend.settings
     try:
         if _redis_share(backend.jobs.redis) >= FULL:

@@ -7,7 +7,7 @@ from prometheus_client import CONTENT_TYPE_LATEST
 
 from service.backend import Behind
 from service.errors import Refusal
-from service.headroom import look
+from service.headroom import looked
 from service.metrics import Metrics
 
 router = APIRouter(tags=["health"])
@@ -22,7 +22,7 @@ async def alive() -> Response:
 @router.get("/readyz")
 async def ready(backend: Behind) -> Response:
     """Whether Redis, the disk and the store can be used and have room for more work; 503 says what has not."""
-    wrong = await to_thread.run_sync(look, backend)
+    wrong = await looked(backend)
     if wrong:
         raise Refusal("not-ready", wrong)
     return JSONResponse({"status": "ready"})

@@ -67,8 +67,11 @@ def _free_port():
 
 
 @contextmanager
-def serve(checkout, data, redis_url, workers, **settings):
-    """A web process, with workers beside it or without, until the block ends; `settings` as CAESURA_… variables."""
+def serve(checkout, data, redis_url, workers, ready=True, **settings):
+    """A web process, with workers beside it or without, until the block ends; `settings` as CAESURA_… variables.
+
+    Not `ready`: it can never be, so it is waited for until it answers at all.
+    """
     port = _free_port()
     env = {
         **{name: value for name, value in os.environ.items() if not name.startswith("CAESURA_")},
@@ -81,7 +84,7 @@ def serve(checkout, data, redis_url, workers, **settings):
     }
     url = f"http://127.0.0.1:{port}"
     with _process(sys.executable, "-m", "service", env=env) as web, httpx.Client(base_url=url, timeout=60) as http:
-        _until_ready(web, http)
+        _until(web, http, "/readyz" if ready else "/healthz")
         service = Service(url, http, data, redis_url, web.pid)
         if not workers:
             yield service
@@ -90,12 +93,12 @@ def serve(checkout, data, redis_url, workers, **settings):
             yield service
 
 
-def _until_ready(web, http):
+def _until(web, http, path):
     deadline = time.monotonic() + START_SECONDS
     while time.monotonic() < deadline:
         assert web.poll() is None, "the web process ended"
         try:
-            if http.get("/readyz").status_code == 200:
+            if http.get(path).status_code == 200:
                 return
         except httpx.TransportError:
             time.sleep(0.05)

@@ -145,3 +145,16 @@ def test_a_running_job_can_be_cancelled(place, long_take):
     assert nothing_started(place, seconds=2.0)
     assert place.records.segmentation(record.id).status == "cancelled"
     assert place.records.result(record.id) == (None, None, None)
+
+
+def test_a_clock_that_jumps_loses_no_attempt(idle, take):
+    """A lease is Redis's to end: what our clocks say of a record, a year ago or ahead, makes nobody lost."""
+    record = idle.submit(idle.upload(take))
+    running = idle.records.begin(record.id, record.token)
+    for jumped in (running.updated - 3e7, running.updated + 3e7):
+        key = keys.segmentation_key(record.id)
+        idle.redis.set(key, running.with_(updated=jumped, created=jumped).model_dump_json())
+        assert [idle.jobs.reconcile() for _ in range(3)] == [0, 0, 0]
+    assert 0 < idle.redis.ttl(keys.lease_key(record.token)) <= LEASE_SECONDS
+    idle.redis.delete(keys.lease_key(record.token))
+    assert [idle.jobs.reconcile() for _ in range(2)] == [0, 1]

@@ -1,0 +1,65 @@
+"""What surrounds the service fails: it says so in a sentence, with when to come back, and leaves nothing behind."""
+
+import os
+import resource
+import signal
+import socket
+import time
+
+import pytest
+
+from tests.service.conftest import serve
+
+
+@pytest.fixture
+def nowhere(monkeypatch):
+    """The address of an object store that nobody runs, on a port that is taken and never answers."""
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        monkeypatch.setenv("AWS_ENDPOINT", f"http://127.0.0.1:{silent.getsockname()[1]}")
+        monkeypatch.setenv("AWS_ALLOW_HTTP", "true")
+        monkeypatch.setenv("AWS_ACCESS_KEY_ID", "none")
+        monkeypatch.setenv("AWS_SECRET_ACCESS_KEY", "none")
+        monkeypatch.setenv("AWS_REGION", "none")
+        yield "s3://nowhere"
+
+
+def test_a_store_that_does_not_answer_is_said_before_the_upload_is_read(checkout, idle, tmp_path, nowhere, take):
+    """503 with Retry-After, and not ready; the process lives; nothing is kept. It is ready again when the store is."""
+    with serve(checkout, tmp_path, idle.redis_url, workers=False, ready=False, store_url=nowhere) as other:
+        refused = other.http.post("/v1/segmentations", content=take(901))
+        assert (refused.status_code, refused.json()["code"]) == (503, "not-ready")
+        assert int(refused.headers["Retry-After"]) >= 1
+        assert "Nothing was kept" in refused.json()["detail"]
+        assert other.http.get("/readyz").status_code == 503
+        assert other.http.get("/healthz").status_code == 200
+        assert not other.spooled()
+
+
+@pytest.mark.skipif(not hasattr(resource, "prlimit"), reason="only Linux limits another process")
+def test_a_disk_that_is_full_in_the_middle_of_an_upload_is_said(checkout, idle, tmp_path, take):
+    """507, nothing kept, and the next upload that fits is taken."""
+    with serve(checkout, tmp_path, idle.redis_url, workers=False) as other:
+        limits = resource.prlimit(other.pid, resource.RLIMIT_FSIZE)
+        resource.prlimit(other.pid, resource.RLIMIT_FSIZE, (10_000, limits[1]))
+        refused = other.http.post("/v1/animations", content=take(902))
+        assert (refused.status_code, refused.json()["code"]) == (507, "storage-full")
+        assert not other.spooled()
+        resource.prlimit(other.pid, resource.RLIMIT_FSIZE, limits)
+        assert other.http.post("/v1/animations", content=take(902)).status_code == 201
+
+
+def test_an_upload_that_a_kill_cuts_short_is_gone_at_the_next_start(checkout, idle, tmp_path):
+    """The web process is killed in the middle: what it had received is cleared when another one starts."""
+    with serve(checkout, tmp_path, idle.redis_url, workers=False) as killed:
+        host, port = killed.url.removeprefix("http://").split(":")
+        with socket.create_connection((host, int(port))) as half:
+            half.sendall(b"POST /v1/animations HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5000000\r\n\r\nglTF")
+            half.sendall(bytes(2_000_000))
+            deadline = time.monotonic() + 20
+            while not killed.spooled():
+                assert time.monotonic() < deadline
+                time.sleep(0.02)
+            os.kill(killed.pid, signal.SIGKILL)
+    assert killed.spooled()
+    with serve(checkout, tmp_path, idle.redis_url, workers=False) as other:
+        assert not other.spooled()
