@@ -28,9 +28,9 @@ from benchmarks.report import write_section
 
 DOCS = Path(__file__).resolve().parent.parent / "docs" / "operations.md"
 CLIENTS = 8
-LONGEST_SECONDS = 420.0
-BETWEEN_SECONDS = (0.3, 2.0)
-MOST_KILLS = 100
+LONGEST_SECONDS = 900.0
+BETWEEN_SECONDS = (0.3, 2.5)
+MOST_KILLS = 80
 WEIGHTS = {"work-horse": 10, "worker": 4, "web": 4, "Redis": 3, "pool": 1, "supervisor": 1}
 
 

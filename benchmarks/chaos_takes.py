@@ -1,4 +1,4 @@
-"""The takes of the chaos run: small ones, each different, and every fifth long enough to be killed in the middle."""
+"""The takes of the chaos run: small ones, each different, and every tenth long enough to be killed in the middle."""
 
 import io
 
@@ -10,7 +10,7 @@ RATE = 30.0
 
 def takes(count: int) -> list[bytes]:
     """So many NPZ files, no two the same."""
-    return [_take(number, LONG_FRAMES if number % 5 == 0 else SMALL_FRAMES) for number in range(count)]
+    return [_take(number, LONG_FRAMES if number % 10 == 0 else SMALL_FRAMES) for number in range(count)]
 
 
 def _take(number: int, frames: int) -> bytes:
