@@ -18,7 +18,7 @@ from core.formats.gltf.summary import Clip, clips, size_of_scene
 from core.formats.notices import Notices
 from core.formats.sequence_members import check_shapes, members_by_use
 from core.formats.sniffing import SNIFFED, Format, sniff
-from core.formats.zip_files import ZipFiles, told_as_zip
+from core.formats.zip_files import ZipFiles, archive_within, told_as_zip
 from core.limits import Limits
 
 MOST_JSON = 4 * 2**20
@@ -103,18 +103,30 @@ def _bvh_header(file: BinaryIO, name: str, limits: Limits) -> Header:
 
 
 def _zip_header(file: BinaryIO, name: str, limits: Limits) -> Header:
-    """That of its model, if it is small enough to be read here, or the number of its shapes."""
+    """That of its model, by its first megabytes, or the number of its shapes."""
     files = ZipFiles(file, limits)
     model = files.model()
     if model is None:
         frames = len(files.shapes())
         return Header("zip", name, (HeaderTake(0, "vertices", (frames - 1) / ASSUMED, frames, ASSUMED),))
-    if files.members[model].file_size > MOST_JSON:
-        return Header("zip", name)
     with told_as_zip(), files.inflate(model) as inner:
-        data = inner.read(MOST_JSON + 1)
-    found = read_header(io.BytesIO(data), name, limits)
+        data = inner.read(2 * MOST_JSON)
+    if sniff(data[:SNIFFED]) in {"zip", "npz"}:
+        raise archive_within(model)
+    found = read_header(_Beginning(data, files.members[model].file_size), name, limits)
     return Header("zip", name, found.takes, found.vertices, found.triangles)
+
+
+class _Beginning(io.BytesIO):
+    """The beginning of a file of `size` bytes: what lies behind it is as if it could not be read."""
+
+    def __init__(self, data: bytes, size: int) -> None:
+        super().__init__(data)
+        self._size = size
+
+    def seek(self, offset: int, whence: int = io.SEEK_SET) -> int:
+        """Move, the end being that of the whole file."""
+        return super().seek(offset + self._size, io.SEEK_SET) if whence == io.SEEK_END else super().seek(offset, whence)
 
 
 def _npz_header(file: BinaryIO, name: str, limits: Limits) -> Header:

@@ -14,7 +14,7 @@ from core.formats.header import read_header
 from core.formats.npz import read_npz
 from core.formats.pairing import paired
 from core.formats.sniffing import SNIFFED, sniff
-from core.formats.zip_files import ZipFiles
+from core.formats.zip_files import ZipFiles, archive_within
 from core.formats.zipped import member, read_shapes
 from core.limits import Limits
 from core.parameters import Parameters
@@ -46,6 +46,8 @@ def read_animation(parts: Mapping[str, Part], parameters: Parameters, limits: Li
         views = {called: member(files, other, data, scratch) for called, other in files.beside(name).items()}
         data = member(files, name, data, scratch)
         kind = sniff(bytes(data[:SNIFFED]))
+        if kind in {"zip", "npz"}:
+            raise archive_within(name)
     if kind == "npz":
         return read_npz(data, parameters, limits, scratch)
     if kind == "bvh":

@@ -85,6 +85,11 @@ def told_as_zip() -> Iterator[None]:
         raise BrokenContainer("malformed-zip", detail) from None
 
 
+def archive_within(name: str) -> UnsupportedMedia:
+    """The refusal of an archive in a zip: there may be another one in it, without end."""
+    return UnsupportedMedia("unsupported-media-type", f"{name[:80]!r} in the zip is a zip again. Send that one alone.")
+
+
 def _number(name: str) -> int:
     found = NUMBER.search(name.rpartition(".")[0])
     return int(found[1]) if found and len(found[1]) < 19 else -1

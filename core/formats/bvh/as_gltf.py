@@ -3,7 +3,7 @@
 import warnings
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from core.errors import InvalidModel
 from core.formats.budget import Budget
@@ -12,6 +12,9 @@ from core.formats.gltf.writer import Channel, GlbWriter
 from core.limits import Limits
 
 AXES = {"X": 0, "Y": 1, "Z": 2}
+
+AT_ONCE = 2**18
+"""Rotations that are computed together."""
 
 
 def bvh_as_gltf(data: memoryview, limits: Limits) -> bytes:
@@ -57,15 +60,14 @@ def _bad_frame(values: Float[np.ndarray, "numbers"], head: Head) -> int:
 def _moves(
     head: Head, values: Float[np.ndarray, "frames columns"], times: Float[np.ndarray, "frames"]
 ) -> list[Channel]:
+    ends = np.cumsum([len(joint.channels) for joint in head.joints])
+    rotations = _rotations(head, values, ends)
     found = []
-    first = 0
     for node, joint in enumerate(head.joints):
-        own = values[:, first : first + len(joint.channels)]
-        first += len(joint.channels)
-        kinds = {channel[1:] for channel in joint.channels}
-        if "rotation" in kinds:
-            found.append(Channel(node, "rotation", times, _rotations(joint, own)))
-        if "position" in kinds:
+        if node in rotations:
+            found.append(Channel(node, "rotation", times, rotations[node]))
+        if any(channel.endswith("position") for channel in joint.channels):
+            own = values[:, ends[node] - len(joint.channels) : ends[node]]
             found.append(Channel(node, "translation", times, _places(joint, own)))
     return found
 
@@ -79,19 +81,41 @@ def _places(joint: Joint, own: Float[np.ndarray, "frames channels"]) -> Float[np
     return places.astype(np.float32)
 
 
-def _rotations(joint: Joint, own: Float[np.ndarray, "frames channels"]) -> Float[np.ndarray, "frames 4"]:
-    """Rotations about the axes in the order of the channels, the last one first on a point; degrees."""
-    x, y, z, w = *np.zeros((3, len(own))), np.ones(len(own))
-    for column, channel in enumerate(joint.channels):
-        if channel.endswith("rotation"):
-            half = np.radians(own[:, column]) / 2
-            sine = np.sin(half)
-            a, b, c = (sine * (channel[0] == axis) for axis in AXES)
-            d = np.cos(half)
-            x, y, z, w = (
-                w * a + x * d + y * c - z * b,
-                w * b - x * c + y * d + z * a,
-                w * c + x * b - y * a + z * d,
-                w * d - x * a - y * b - z * c,
-            )
-    return np.stack([x, y, z, w], axis=1).astype(np.float32)
+def _rotations(
+    head: Head, values: Float[np.ndarray, "frames columns"], ends: Int[np.ndarray, "joints"]
+) -> dict[int, Float[np.ndarray, "frames 4"]]:
+    """The rotations of every joint that has any: many joints at once where there are few frames, else a few."""
+    columns = [
+        [end - len(joint.channels) + place for place, name in enumerate(joint.channels) if name.endswith("rotation")]
+        for joint, end in zip(head.joints, ends.tolist(), strict=True)
+    ]
+    by_order: dict[str, list[int]] = {}
+    for node, joint in enumerate(head.joints):
+        order = "".join(name[0] for name in joint.channels if name.endswith("rotation"))
+        if order:
+            by_order.setdefault(order, []).append(node)
+    at_once = max(AT_ONCE // head.frames, 1)
+    found: dict[int, Float[np.ndarray, "frames 4"]] = {}
+    for order, nodes in by_order.items():
+        for first in range(0, len(nodes), at_once):
+            some = nodes[first : first + at_once]
+            turned = _turned(values[:, np.array([columns[node] for node in some])], order)
+            found |= {node: np.ascontiguousarray(turned[:, place]) for place, node in enumerate(some)}
+    return found
+
+
+def _turned(degrees: Float[np.ndarray, "frames joints axes"], order: str) -> Float[np.ndarray, "frames joints 4"]:
+    """Quaternions of rotations about the axes in the order of the channels, the last one first on a point."""
+    x, y, z, w = *np.zeros((3, *degrees.shape[:2])), np.ones(degrees.shape[:2])
+    for column, named in enumerate(order):
+        half = np.radians(degrees[:, :, column]) / 2
+        sine = np.sin(half)
+        a, b, c = (sine * (named == axis) for axis in AXES)
+        d = np.cos(half)
+        x, y, z, w = (
+            w * a + x * d + y * c - z * b,
+            w * b - x * c + y * d + z * a,
+            w * c + x * b - y * a + z * d,
+            w * d - x * a - y * b - z * c,
+        )
+    return np.stack([x, y, z, w], axis=2).astype(np.float32)

@@ -54,10 +54,13 @@ def cut(keys: Keys, start: float, end: float, origin: float) -> Part:
 
 
 def spanning(part: Part, start: float, end: float, origin: float) -> Part:
-    """The same with a key at either end, where one key held all the time: so the clip is as long as it should be."""
-    if not part.is_still:
-        return part
+    """The same with a key at either end, where one key held all the time: so the clip is as long as it should be.
+
+    A clip of a take's last frame alone has no length, and keeps its one key.
+    """
     seconds = (np.array([start, end]) - origin).astype(np.float32)
+    if not part.is_still or seconds[0] == seconds[1]:
+        return part
     return Part(seconds, np.repeat(part.values, 2, axis=0))
 
 

@@ -53,6 +53,8 @@ def _reach(file: Replacement, tracks: Tracks, channel: TakeChannel, clip: Clip, 
     """Give a clip in which nothing moves its length all the same: by its first channel."""
     origin = _origin(clip, options)
     part = spanning(cut(channel.keys, clip.start, clip.end, origin), clip.start, clip.end, origin)
+    if part.is_still:
+        return
     tracks.samplers.append(_sampler(file, channel, part))
     tracks.channels[0] = {**tracks.channels[0], "sampler": len(tracks.samplers) - 1}
 

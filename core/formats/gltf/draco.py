@@ -14,7 +14,7 @@ from core.formats.gltf.document import Document
 from core.formats.gltf.draco_header import promised
 from core.formats.gltf.entry import Entry
 
-TRIANGLES = 4
+TRIANGLES, STRIP = 4, 5
 
 
 @dataclass(frozen=True)
@@ -77,12 +77,15 @@ def unpacked(
 ) -> tuple[dict[str, Layout], Layout | None]:
     """The layouts of a compressed primitive, with those that lie in its stream made to come from there.
 
-    Attributes are found by the unique ids that the extension gives; one that it does not name has data of its own.
+    What comes out are triangles, also where the file counts the corners of a strip. Attributes are found by the unique
+    ids that the extension gives; one that it does not name has data of its own.
     """
-    if indices is None or primitive.whole("mode", TRIANGLES) != TRIANGLES:
+    mode = primitive.whole("mode", TRIANGLES)
+    if indices is None or mode not in (TRIANGLES, STRIP):
         raise extension.refusal("Compressed geometry must be indexed triangles.")
-    view = extension.index("bufferView", len(document.views), "buffer views")
-    stream = Stream(extension, accessors.view(view), attributes["POSITION"].count, indices.count)
+    data = accessors.view(extension.index("bufferView", len(document.views), "buffer views"))
+    corners = indices.count if mode == TRIANGLES else _corners_of_strip(data, indices.count)
+    stream = Stream(extension, data, attributes["POSITION"].count, corners)
     named = extension.entry("attributes")
     if named is None or "POSITION" not in named:
         raise extension.refusal("POSITION is not among the compressed attributes.", name="attributes")
@@ -91,7 +94,16 @@ def unpacked(
         for name, layout in attributes.items()
     }
     # Draco makes 32-bit corners of any.
-    return found, replace(indices, dtype=np.dtype("<u4"), unpack=stream.triangles)
+    return found, replace(indices, count=corners, dtype=np.dtype("<u4"), unpack=stream.triangles)
+
+
+def _corners_of_strip(data: memoryview, corners: int) -> int:
+    """Corners of the triangles that a strip of so many corners was compressed as; those without area may be missing."""
+    try:
+        _, faces = promised(data)
+    except ValueError:
+        return corners  # told when it is decoded
+    return 3 * faces if faces <= max(corners - 2, 0) else corners
 
 
 def _from_stream(layout: Layout, stream: Stream, unique_id: int) -> Layout:

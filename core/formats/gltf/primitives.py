@@ -86,6 +86,7 @@ def _outline(document: Document, accessors: Accessors, primitive: Entry) -> Outl
     draco = primitive.extension("KHR_draco_mesh_compression")
     if draco is not None:
         layouts, indices = unpacked(document, accessors, primitive, draco, layouts, indices)
+        mode = TRIANGLES
     for name, layout in layouts.items():
         if layout.count != position.count:
             raise attributes.refusal(f"{name} has {layout.count} elements, POSITION {position.count}.", name=name)

@@ -13,6 +13,7 @@ from core.formats.gltf.entry import FLOAT32_MAX, Entry
 from core.formats.takes import take_name
 
 TRIANGLES, FAN = 4, 6
+INSTANCING = "EXT_mesh_gpu_instancing"
 
 
 @dataclass(frozen=True)
@@ -40,12 +41,25 @@ def clips(root: Entry, times: Callable[[Any], Sequence[float]]) -> list[Clip]:
 
 
 def size_of_scene(root: Entry) -> tuple[int, int]:
-    """Vertices and triangles of all nodes that have a mesh, in any scene."""
+    """Vertices and triangles of all nodes that have a mesh, as often as they draw it, in any scene."""
     accessors, meshes = _list(root.value, "accessors"), _list(root.value, "meshes")
     sizes = [_size_of_mesh(accessors, mesh) for mesh in meshes]
     nodes = _list(root.value, "nodes")
-    used = [number for node in nodes if (number := _place(node, "mesh", len(meshes))) is not None]
-    return sum(sizes[number][0] for number in used), sum(sizes[number][1] for number in used)
+    used = [
+        (sizes[number], _times(accessors, node))
+        for node in nodes
+        if (number := _place(node, "mesh", len(meshes))) is not None
+    ]
+    return sum(times * size[0] for size, times in used), sum(times * size[1] for size, times in used)
+
+
+def _times(accessors: list[Any], node: Any) -> int:
+    """How often a node draws its mesh."""
+    if not isinstance(node, dict) or "skin" in node:
+        return 1
+    attributes = _member(_member(_member(node, "extensions", None), INSTANCING, None), "attributes", None)
+    places = (_place(attributes, name, len(accessors)) for name in ("TRANSLATION", "ROTATION", "SCALE"))
+    return next((_count(accessors[place]) for place in places if place is not None), 1)
 
 
 def _size_of_mesh(accessors: list[Any], mesh: Any) -> tuple[int, int]:

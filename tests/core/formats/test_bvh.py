@@ -157,3 +157,19 @@ def test_ends_below_ends_do_not_grow_their_names() -> None:
         " }" * (depth + 1), " }" * depth
     )
     assert read_head(first.encode(), Limits()).joints[0].name == " end"
+
+
+def test_joints_of_several_orders_are_turned_together_or_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Twenty joints of two orders of channels: the same vertices whether many or one of them are computed at a time."""
+    orders = ("Zrotation Xrotation Yrotation", "Yrotation Zrotation Xrotation")
+    lines = ["HIERARCHY", "ROOT r", "{", "OFFSET 0 0 0", f"CHANNELS 3 {orders[0]}"]
+    for i in range(19):
+        lines += [f"JOINT j{i}", "{", "OFFSET 0 1 0", f"CHANNELS 3 {orders[i % 2]}"]
+    angles = np.random.default_rng(0).uniform(-90, 90, (5, 60))
+    lines += ["}"] * 20 + ["MOTION", "Frames: 5", "Frame Time: 0.04", *(" ".join(map(str, row)) for row in angles)]
+    data = "\n".join(lines).encode()
+    together = opened(data).vertices(0, 5)
+    monkeypatch.setattr("core.formats.bvh.as_gltf.AT_ONCE", 1)
+    np.testing.assert_array_equal(opened(data).vertices(0, 5), together)
+    turned = data.replace(orders[1].encode(), orders[0].encode())
+    assert np.abs(opened(turned).vertices(0, 5) - together).max() > 0.1

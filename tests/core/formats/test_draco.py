@@ -92,6 +92,19 @@ def _count(accessor: int, count: int) -> Mutation:
     return lambda model: model.json["accessors"][accessor].update(count=count)
 
 
+def _strip(model: Glb) -> None:
+    """Say that the two triangles were a strip of four corners."""
+    model.json["meshes"][0]["primitives"][0]["mode"] = 5
+    _count(1, 4)(model)
+
+
+def test_a_strip_comes_out_as_triangles() -> None:
+    """A stream holds triangles, whatever the file drew them as."""
+    model = compressed()
+    _strip(model)
+    np.testing.assert_array_equal(opened(model.glb()).triangles, opened(compressed().glb()).triangles)
+
+
 def _influences(model: Glb) -> None:
     """Say that the positions are joints and weights too."""
     model.json["accessors"].append({"componentType": 5121, "count": 4, "type": "VEC4"})
@@ -128,7 +141,8 @@ HOSTILE: list[tuple[str, Callable[[], Glb], Mutation, str]] = [
     ("a view that is not there", compressed, lambda m: extension(m).update(bufferView=-1), "invalid-gltf"),
     ("no attributes", compressed, lambda m: extension(m).pop("attributes"), "invalid-gltf"),
     ("an id that is text", compressed, lambda m: extension(m)["attributes"].update(POSITION="0"), "invalid-gltf"),
-    ("strips", compressed, lambda m: m.json["meshes"][0]["primitives"][0].update(mode=5), "invalid-gltf"),
+    ("fans", compressed, lambda m: m.json["meshes"][0]["primitives"][0].update(mode=6), "invalid-gltf"),
+    ("a strip of fewer corners", compressed, lambda m: (_strip(m), _count(1, 3)(m)), "decompression-failed"),
 ]
 
 

@@ -1,11 +1,13 @@
 """Meshes drawn many times by one node."""
 
+import io
 from typing import Any
 
 import numpy as np
 import pytest
 
 from core.errors import InvalidModel, LimitExceeded
+from core.formats.header import read_header
 from core.limits import Limits
 from tests.core.formats.opening import codes, opened
 from tests.glb import SQUARE, Glb, bending_strip, moving_square
@@ -96,3 +98,12 @@ def test_no_instances_are_no_mesh() -> None:
     with pytest.raises(InvalidModel) as refused:
         opened(model.glb())
     assert refused.value.code == "no-mesh"
+
+
+def test_a_header_counts_every_instance() -> None:
+    """As the reader does; a node with a skin draws its mesh once."""
+    model = instanced(TRANSLATION=(np.zeros((7, 3)), "float32"))
+    header = read_header(io.BytesIO(model.glb()), "x.glb", Limits())
+    assert (header.vertices, header.triangles) == (28, 14)
+    model.json["nodes"][0]["skin"] = 0
+    assert read_header(io.BytesIO(model.glb()), "x.glb", Limits()).vertices == 4

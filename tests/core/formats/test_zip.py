@@ -3,6 +3,7 @@
 import io
 import json
 import zipfile
+from contextlib import suppress
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from core.errors import CaesuraError, InvalidModel, LimitExceeded
 from core.formats.header import read_header
 from core.limits import Limits
 from tests.core.formats.opening import codes, opened
+from tests.core.formats.test_npz import npz
 from tests.glb import moving_square
 
 
@@ -78,6 +80,8 @@ def test_frames_of_another_mesh_are_refused_by_name() -> None:
 HOSTILE = {
     "a path out of it": ({"../square.gltf": b"{}"}, "malformed-zip"),
     "an absolute path": ({"/etc/x.gltf": b"{}"}, "malformed-zip"),
+    "a zip in it": ({"a.glb": zipped({"a.glb": b"glTF"})}, "unsupported-media-type"),
+    "an archive of arrays in it": ({"a.glb": npz()}, "unsupported-media-type"),
     "nothing to read": ({"notes.txt": b"hello"}, "unsupported-media-type"),
     "two models": ({"a.gltf": b"{}", "b.glb": b""}, "ambiguous-upload"),
     "an empty model": ({"a.gltf": b""}, "unsupported-media-type"),
@@ -102,6 +106,26 @@ def test_a_hostile_zip_is_refused_by_name(files: dict[str, bytes], code: str | N
     with pytest.raises(CaesuraError) as refused:
         opened(zipped(files))
     assert code is None or refused.value.code == code
+    with suppress(CaesuraError):  # by its header too, or not at all
+        read_header(io.BytesIO(zipped(files)), "x.zip", Limits())
+
+
+def test_the_header_of_a_large_model_in_a_zip_is_read() -> None:
+    """By its beginning: takes, and how large it is, whatever lies behind its JSON."""
+    model = moving_square()
+    model.view(bytes(9 * 2**20))
+    for method in (zipfile.ZIP_DEFLATED, zipfile.ZIP_STORED):
+        header = read_header(io.BytesIO(zipped({"a.glb": model.glb()}, method)), "x.zip", Limits())
+        assert (header.vertices, header.triangles, len(header.takes)) == (4, 2, 1)
+
+
+@pytest.mark.parametrize("take", ["all", 1])
+def test_takes_of_a_model_in_a_zip_are_chosen_as_those_of_any(take: object) -> None:
+    """All of them one after the other, or one by its number."""
+    model = moving_square()
+    model.json["animations"] *= 2
+    assert opened(zipped({"a.glb": model.glb()}), take=take).frames == (62 if take == "all" else 31)
+    assert opened(zipped(shapes("obj")), take="all").frames == 12
 
 
 def test_bombs_and_broken_zips_are_refused_by_their_directory() -> None:
