@@ -16,9 +16,12 @@ ASK_AGAIN = {"Retry-After": "1"}
 
 def answer(document: BaseModel, status: int = 200, headers: Mapping[str, str] | None = None) -> Response:
     """A document as JSON."""
-    return Response(
-        document.model_dump_json(), status, {"Cache-Control": "no-store", **(headers or {})}, "application/json"
-    )
+    return text_answer(document.model_dump_json(), status, headers)
+
+
+def text_answer(text: str, status: int = 200, headers: Mapping[str, str] | None = None) -> Response:
+    """JSON that is there as text."""
+    return Response(text, status, {"Cache-Control": "no-store", **(headers or {})}, "application/json")
 
 
 def preference_applied(request: Request) -> dict[str, str]:

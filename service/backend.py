@@ -14,6 +14,7 @@ from fastapi import Depends, Request
 from service.errors import Refusal
 from service.key_file import KeyFile
 from service.settings import ServiceSettings
+from service.told import Told, told
 from worker import ids
 from worker.async_records import AsyncRecords
 from worker.blobs import Blobs
@@ -53,10 +54,19 @@ class Backend:
 
     async def segmentation(self, identifier: str, owner: str) -> SegmentationRecord:
         """The segmentation, or the refusal to say whether it exists."""
-        record = await self.records.segmentation(identifier)
-        if record is None or record.owner != owner:
+        return (await self.told(identifier, owner)).record
+
+    async def told(self, identifier: str, owner: str) -> Told:
+        """The segmentation and its status document, or the refusal to say whether it exists."""
+        known = await self.known(identifier)
+        if known is None or known.record.owner != owner:
             raise Refusal("not-found", f"There is no segmentation {identifier}. It may have been deleted.")
-        return record
+        return known
+
+    async def known(self, identifier: str) -> Told | None:
+        """The same, whoever's it is; None where there is none."""
+        stored = await self.records.stored_segmentation(identifier)
+        return None if stored is None else told(stored)
 
     @contextmanager
     def patience(self, seconds: float = math.inf) -> Iterator[CancelScope]:
@@ -86,7 +96,10 @@ class Backend:
 
     async def position(self, record: SegmentationRecord) -> int | None:
         """How many jobs come before it; None where it does not wait."""
-        return await to_thread.run_sync(self.jobs.position, record) if record.status == "queued" else None
+        if record.status != "queued":
+            return None
+        found = await self.records.redis.lpos(self.jobs.queue_key(record.queue), record.token)
+        return found if isinstance(found, int) else None
 
 
 @asynccontextmanager
@@ -105,8 +118,8 @@ async def opened(settings: ServiceSettings) -> AsyncIterator[Backend]:
         client.close()
 
 
-def backend_of(request: Request) -> Backend:
-    """The process's backend."""
+async def backend_of(request: Request) -> Backend:
+    """The process's backend. It waits for nothing, but FastAPI would call a plain function on a thread."""
     backend: Backend = request.app.state.backend
     return backend
 

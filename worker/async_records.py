@@ -9,6 +9,7 @@ import redis.asyncio
 from worker import keys
 from worker.records import names
 from worker.schema import AnimationRecord, ExportRecord, SegmentationRecord
+from worker.together import Together
 
 REREAD_SECONDS = 3.0  # a message may be missed where a connection breaks
 
@@ -18,9 +19,11 @@ class AsyncRecords:
 
     def __init__(self, url: str) -> None:
         self.redis: redis.asyncio.Redis = redis.asyncio.Redis.from_url(url, health_check_interval=30)
+        self._together = Together(self.redis)
 
     async def close(self) -> None:
         """Give the connections back."""
+        await self._together.close()
         await self.redis.aclose()
 
     async def animation(self, identifier: str) -> AnimationRecord | None:
@@ -36,7 +39,11 @@ class AsyncRecords:
 
     async def segmentation(self, identifier: str) -> SegmentationRecord | None:
         """The segmentation, or None."""
-        return SegmentationRecord.read(await self.redis.get(keys.segmentation_key(identifier)))
+        return SegmentationRecord.read(await self.stored_segmentation(identifier))
+
+    async def stored_segmentation(self, identifier: str) -> bytes | None:
+        """The segmentation's record as it is stored, or None."""
+        return await self._together.get(keys.segmentation_key(identifier))
 
     async def segmentations(self, animation: str) -> list[SegmentationRecord]:
         """All segmentations of an animation, newest first."""
@@ -46,7 +53,7 @@ class AsyncRecords:
 
     async def document(self, identifier: str) -> bytes | None:
         """The result document, JSON, as stored."""
-        return _bytes(await self.redis.get(keys.segmentation_key(identifier, "document")))
+        return await self._together.get(keys.segmentation_key(identifier, "document"))
 
     async def energy(self, identifier: str) -> bytes | None:
         """The energy curve: little-endian float32."""
