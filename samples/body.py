@@ -72,10 +72,10 @@ def limbs() -> list[Limb]:
     return made
 
 
-def body() -> Body:
-    """The smooth figure, made from its measures alone."""
+def body(cell: float = CELL) -> Body:
+    """The smooth figure, made from its measures alone; triangles are about `cell` metres wide."""
     forms = limbs()
-    surface = skin(forms, CELL)
+    surface = skin(forms, cell)
     weights = heat_weights(surface, forms, len(HUMAN.names), SHARPNESS)
     joints, kept = strongest(weights)
     return Body(surface, joints, kept, _colours(surface, weights))

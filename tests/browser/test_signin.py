@@ -3,7 +3,8 @@
 import redis
 from playwright.sync_api import Browser, expect
 
-from service.credentials import KeyRing, new_key
+from service.commands.key_ring import KeyRing
+from service.credentials import new_key
 from tests.service.conftest import with_its_own_redis
 
 

@@ -91,6 +91,7 @@ function show(result, viewer) {
   shown?.close();
   face('result', status.name);
   $('subject').textContent = [status.name, about(result)].filter(Boolean).join(' · ');
+  $('result-title').textContent = status.name;
   shown = new Result(result, status.revision ?? 0, changed);
   shown.presence.look(document.querySelector('#looks input:checked').value);
   const frame = frameOfAddress();

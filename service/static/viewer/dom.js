@@ -13,6 +13,9 @@ export function make(tag, properties = {}, ...children) {
   return element;
 }
 
+/** Words for who listens, between those for who looks. */
+export const unseen = (text) => make('span', { className: 'unseen' }, text);
+
 /** A colour of the style sheet, for canvases. */
 export const styled = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 

@@ -1,7 +1,7 @@
 // The list of segments: what, from where, how long. Every row is a button that goes there; one Tab stop for all.
 
 import { countsFrom, shownFrame, shownInterval } from './counting.js';
-import { $, inView, make } from './dom.js';
+import { $, inView, make, unseen } from './dom.js';
 import { duration } from './numbers.js';
 import { swatch } from './palette.js';
 import { roving, stop } from './roving.js';
@@ -58,12 +58,14 @@ export class SegmentList {
     const row = make('button', { type: 'button', className: 'segment', tabIndex: -1, onclick: () => this.#go(index) },
       swatch(segment.motion),
       make('span', { className: 'name' }, segment.name),
+      unseen(this.#counted ? ' frames ' : ' from frame '),
       make('span', { className: 'from' }, place),
+      unseen(' lasts '),
       make('span', { className: 'long' }, length),
-      make('span', { className: 'marks' }, segment.loop ? '↻' : '', doubt ? make('b', { title: 'The method is in doubt about where this ends' }, '?') : ''));
+      make('span', { className: 'marks' }, segment.loop ? make('span', {}, '↻', unseen(' loops')) : null,
+        doubt ? make('b', { title: 'The method is in doubt about where this ends' }, '?', unseen(' doubtful end')) : null));
+    if (segment.discard) row.append(unseen(' discarded'));
     row.classList.toggle('discarded', Boolean(segment.discard));
-    row.setAttribute('aria-label', [`Motion ${segment.name}`, `${this.#counted ? 'frames' : 'from frame'} ${place}`, length,
-      segment.loop && 'loops', segment.discard && 'discarded', doubt && 'doubtful end'].filter(Boolean).join(', '));
     return row;
   }
 }

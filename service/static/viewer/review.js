@@ -1,7 +1,7 @@
 // The cuts, least certain first, for a person to look through. What was checked is remembered in this browser.
 
 import { onCounting, shownFrame } from './counting.js';
-import { $, inView, make } from './dom.js';
+import { $, inView, make, unseen } from './dom.js';
 import { stored, store } from './memory.js';
 import { count } from './numbers.js';
 import { swatch } from './palette.js';
@@ -132,10 +132,11 @@ export class Review {
     const row = make('button', { type: 'button', className: 'cut', tabIndex: -1, onclick: () => this.#choose(at()) },
       swatch(before.motion), swatch(after.motion),
       make('span', { className: 'name' }, `${before.name} | ${after.name}`),
+      unseen(' at frame '),
       make('span', { className: 'from' }, frame),
+      unseen(known ? ' ' : ' certain to '),
       make('span', { className: 'sure' }, state));
     row.classList.toggle('open', this.#doubtful(before));
-    row.setAttribute('aria-label', `Cut from ${before.name} to ${after.name} at frame ${frame}, ${known || `certain to ${state}`}`);
     make('li', {}, row);
     return row;
   }

@@ -1,0 +1,162 @@
+"""The page for everybody: axe-core finds no serious fault in any state, by day and by night, and keys do everything."""
+
+from pathlib import Path
+from typing import Any, Literal
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.journeys import opened, starts
+from tests.conftest import unavailable
+
+pytestmark = pytest.mark.timeout(240)
+
+SCHEMES: tuple[Literal["light", "dark"], ...] = ("light", "dark")
+GRAVE = ("serious", "critical")
+FOCUSED = (
+    "(({ id, className, localName }) => localName === 'body' ? localName : id || className)(document.activeElement)"
+)
+
+
+@pytest.fixture(scope="module")
+def axe(checkout: Path) -> str:
+    """The checker's source; it is served nowhere, the test brings it into the page."""
+    path = checkout / "node_modules" / "axe-core" / "axe.min.js"
+    if not path.is_file():
+        unavailable("axe-core is not fetched: python tools/fetch_assets.py")
+    return path.read_text(encoding="utf-8")
+
+
+def faults(page: Page, axe: str) -> list[str]:
+    """What is seriously or critically wrong, by day and by night."""
+    found: list[str] = []
+    for scheme in SCHEMES:
+        page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+        page.evaluate(axe)
+        answer: dict[str, Any] = page.evaluate("axe.run(document, { resultTypes: ['violations'] })")
+        found += [
+            f"{scheme}: {one['id']}: {node['target']}: {node['failureSummary']}"
+            for one in answer["violations"]
+            if one["impact"] in GRAVE
+            for node in one["nodes"]
+        ]
+    page.emulate_media(color_scheme="light")
+    return found
+
+
+@pytest.fixture(scope="module")
+def result(kept_page: Page, smooth: Path) -> Page:
+    """The result of our own figure."""
+    opened(kept_page, smooth)
+    return kept_page
+
+
+def test_nothing_serious_on_a_result_whichever_list_is_shown(result: Page, axe: str) -> None:
+    """Segments, review, history, the menu of downloads, a selected cut and the list of keys."""
+    assert faults(result, axe) == []
+    result.keyboard.press("n")
+    expect(result.locator("#panel-review")).to_be_visible()
+    assert faults(result, axe) == []
+    result.locator("#tab-history").click()
+    result.locator(".menu summary").click()
+    assert faults(result, axe) == []
+    result.keyboard.press("Escape")
+    result.keyboard.press("?")
+    expect(result.locator("#help")).to_be_visible()
+    assert faults(result, axe) == []
+    result.keyboard.press("Escape")
+
+
+def test_nothing_serious_on_a_phone(result: Page, axe: str) -> None:
+    """At 390 pixels nothing sticks out, and nothing is lost to who cannot see it."""
+    result.set_viewport_size({"width": 390, "height": 844})
+    assert result.evaluate("document.documentElement.scrollWidth") <= 390
+    assert faults(result, axe) == []
+    result.set_viewport_size({"width": 1100, "height": 720})
+
+
+def test_nothing_serious_before_and_where_it_fails(page: Page, axe: str, tmp_path: Path) -> None:
+    """The first page, the wait, and the refusal."""
+    page.goto("/")
+    expect(page.locator("#drop")).to_be_visible()
+    assert faults(page, axe) == []
+    file = tmp_path / "broken.glb"
+    file.write_bytes(b"glTF" + bytes(8))
+    page.route("**/v1/animations?*", lambda route: None)  # an answer that does not come
+    page.locator("#drop input").set_input_files(file)
+    expect(page.locator("#waiting")).to_be_visible()
+    assert faults(page, axe) == []
+    page.unroute("**/v1/animations?*")
+    page.goto("/")
+    page.locator("#drop input").set_input_files(file)
+    expect(page.locator("#refused-detail")).to_be_visible()
+    assert faults(page, axe) == []
+
+
+def test_a_person_without_a_mouse_gets_everywhere(result: Page) -> None:
+    """Tab reaches every group once, arrows move within; lists are one stop each, and what has the focus is seen."""
+    result.locator("#ask-help").focus()
+    seen: list[str] = []
+    while "body" not in seen:
+        seen.append(result.evaluate(FOCUSED))
+        outlined = result.evaluate("""() => {
+            const seen = (element) => getComputedStyle(element).outlineStyle !== 'none';
+            const at = document.activeElement;
+            return at === document.body || seen(at) || seen(at.nextElementSibling || at) || seen(at.parentElement);
+        }""")
+        assert outlined, seen[-1]
+        result.keyboard.press("Tab")
+    wanted = {"motions", "method", "tab-segments", "segment", "clips", "play", "frame", "timeline", "motion-name"}
+    assert wanted <= set(seen)
+    assert seen.count("segment") == 1
+    result.locator("#segments button").first.focus()
+    result.keyboard.press("ArrowDown")
+    result.keyboard.press("Enter")
+    expect(result.locator("#frame")).to_have_value(str(starts(result)[1]))
+
+
+def test_review_goes_through_the_cuts_by_keys_and_remembers_what_was_checked(result: Page) -> None:
+    """N selects the least certain, C checks it and goes on; a reload forgets nothing."""
+    result.keyboard.press("Escape")
+    result.keyboard.press("n")
+    least = result.locator("#cuts button").first
+    expect(least).to_have_attribute("aria-current", "true")
+    frame = least.locator(".from").text_content()
+    result.keyboard.press("c")
+    expect(result.locator("#cuts button", has_text=frame)).to_contain_text("checked")
+    expect(result.locator("#cuts button").first).to_have_attribute("aria-current", "true")
+    expect(result.locator("#cuts button").first).not_to_contain_text(frame or "")
+    result.reload()
+    result.locator("#tab-review").click()
+    expect(result.locator("#cuts button", has_text=frame)).to_contain_text("checked")
+
+
+def test_frames_count_from_one_where_a_person_says_so(result: Page) -> None:
+    """Starts are one more, ends are named, what is typed is meant so; links and the choice itself stay."""
+    result.locator("#tab-segments").click()
+    first = starts(result)[1]
+    result.locator("#count-one").check(force=True)
+    row = result.locator("#segments button").nth(1)
+    expect(row.locator(".from")).to_have_text(f"{first + 1}–{starts_after(result)}")
+    result.locator("#frame").fill("11")
+    result.locator("#frame").press("Enter")
+    result.wait_for_url("**#frame=10")
+    result.reload()
+    expect(result.locator("#frame")).to_have_value("11")
+    result.locator("#count-one").uncheck(force=True)
+    expect(result.locator("#frame")).to_have_value("10")
+
+
+def starts_after(page: Page) -> str:
+    """The last frame, counted from 1, of the second segment: the third's first frame less one."""
+    third = page.locator("#segments button").nth(2).locator(".from").text_content() or ""
+    return str(int(third.split("–")[0]) - 1)
+
+
+def test_the_scores_choose_a_number_of_motions(result: Page) -> None:
+    """Every number that was scored is in the chart; a click on one cuts the take so, and marks it."""
+    result.locator("#scores rect").nth(2).click()
+    expect(result.locator("#summary")).to_contain_text("3 motions")
+    expect(result.locator("#scores text.chosen")).to_have_text("3")
+    result.locator("#auto").click()
+    expect(result.locator("#auto")).to_have_attribute("aria-pressed", "true")
