@@ -11,7 +11,7 @@ from core.errors import ParameterError
 from service.commands.problems import Command, Unreachable
 
 if TYPE_CHECKING:
-    from service.credentials import KeyRing
+    from service.commands.key_ring import KeyRing
 
 
 @click.group()
@@ -67,7 +67,7 @@ def _ring() -> Iterator["KeyRing"]:
     """The keys of the service; raises `Unreachable` where its Redis does not answer."""
     from redis.exceptions import RedisError
 
-    from service.credentials import KeyRing
+    from service.commands.key_ring import KeyRing
     from service.settings import ServiceSettings
     from worker.records import connect
 

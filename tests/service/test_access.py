@@ -10,7 +10,8 @@ import pytest
 import redis
 
 from service.app import create_app
-from service.credentials import KeyRing, new_key
+from service.commands.key_ring import KeyRing
+from service.credentials import new_key
 from service.key_file import line
 from service.settings import ServiceSettings
 from tests.service.conftest import serve, with_its_own_redis
