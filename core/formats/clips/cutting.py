@@ -64,6 +64,14 @@ def spanning(part: Part, start: float, end: float, origin: float) -> Part:
     return Part(seconds, np.repeat(part.values, 2, axis=0))
 
 
+def held(keys: Keys, part: Part) -> Part:
+    """The value alone of a spline's one key; a rotation's is made of unit length, as every value of a spline is."""
+    values = part.values[:, 1:2]
+    if keys.is_rotation and values.dtype.kind == "f":
+        values = (values / np.linalg.norm(values, axis=2, keepdims=True)).astype(values.dtype)
+    return Part(part.times, values)
+
+
 def _spline(keys: Keys, start: float, end: float, interior: slice, on: tuple[bool, bool], origin: float) -> Part:
     first, last = interior.start, interior.stop
     head = keys.rows[first - 1 : first] if on[0] else keys.spline(np.array([start]))
@@ -80,7 +88,9 @@ def _spline(keys: Keys, start: float, end: float, interior: slice, on: tuple[boo
 
 
 def _increasing(part: Part) -> Part:
-    """Without keys that rounding has put at the time of another; the ends stay."""
+    """Without keys that rounding has put at the time of another; the ends stay, or the first where all are one."""
+    if part.times[0] == part.times[-1]:
+        return Part(part.times[:1], part.values[:1])
     kept = np.ones(len(part.times), bool)
     kept[1:-1] = (part.times[1:-1] > part.times[:-2]) & (part.times[1:-1] < part.times[-1])
     return Part(part.times[kept], part.values[kept])

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from core.document import SegmentationDocument
 from core.formats.clips.channels import TakeChannel, Tracks, take_channels
-from core.formats.clips.cutting import Part, cut, spanning
+from core.formats.clips.cutting import Part, cut, held, spanning
 from core.formats.clips.options import ClipOptions
 from core.formats.clips.plan import Clip, plan
 from core.formats.clips.replacement import Replacement
@@ -66,7 +66,9 @@ def _origin(clip: Clip, options: ClipOptions) -> float:
 def _sampler(file: Replacement, channel: TakeChannel, part: Part) -> dict[str, object]:
     """Its keys in the file: those of the take where they lie, else new ones."""
     output, keys = None, channel.keys
-    layout = channel.output
+    layout, interpolation = channel.output, keys.interpolation
+    if keys.is_spline and part.is_still:  # a spline must have two keys
+        part, interpolation = held(keys, part), "STEP"
     elements = keys.stored[0].size // layout.width
     if part.window is not None:
         output = file.window(layout, part.window[0] * elements, part.window[1] * elements)
@@ -74,5 +76,5 @@ def _sampler(file: Replacement, channel: TakeChannel, part: Part) -> dict[str, o
         stored_as_integers = layout.normalized and part.values.dtype.kind != "f"
         more = {"normalized": True} if stored_as_integers else {}
         output = file.array(part.values, layout.type, layout.width, more)
-    named = {} if keys.interpolation == "LINEAR" else {"interpolation": keys.interpolation}
+    named = {} if interpolation == "LINEAR" else {"interpolation": interpolation}
     return {"input": file.times(part.times), "output": output, **named, **channel.more}

@@ -11,7 +11,7 @@ from tests.core.formats.clips.making import chunks_of, clips_of, cut_at, names_o
 from tests.core.formats.opening import opened
 
 CLOSE = 1e-5
-RATE = 29  # so that frames fall between keys
+RATES = {"gltf": 29, "takes": 7}  # so that frames fall between keys, and there are not too many of a long take
 MODELS = [
     ("gltf/Fox.glb", 0, [1, 2]),
     ("gltf/CesiumMan.glb", 0, [1]),
@@ -31,7 +31,7 @@ def parts_of(path: Path) -> dict[str, bytes]:
     return {part.name: part.read_bytes() for part in (path, *beside)}
 
 
-def seen(node, oracle, path, out, take, rate=RATE):
+def seen(node, oracle, path, out, take, rate):
     """What three.js makes of an animation: every vertex at so many frames a second, and what it is called."""
     command = [str(node), str(oracle), str(path), str(out), "--anim", str(take), "--fps", str(rate)]
     subprocess.run(command, check=True, capture_output=True, timeout=60)
@@ -41,19 +41,19 @@ def seen(node, oracle, path, out, take, rate=RATE):
 @pytest.mark.parametrize(("name", "take", "seconds"), MODELS)
 def test_three_js_sees_the_same_motion(shared, node, oracle, tmp_path, name, take, seconds):
     """Each clip has its name and its length, and moves every vertex as the take does from that second on."""
-    path = shared / "data" / name
+    path, rate = shared / "data" / name, RATES[name.partition("/")[0]]
     parts = parts_of(path)
     document = cut_at(opened(parts, take=take, fps=30), [30 * second for second in seconds])
     glb = clips_of(parts, document)
     (tmp_path / "clips.glb").write_bytes(glb)
-    whole, said = seen(node, oracle, path, tmp_path / "take", take)
+    whole, said = seen(node, oracle, path, tmp_path / "take", take, rate)
     diagonal = np.linalg.norm(np.ptp(whole, axis=(0, 1)))
     ends = [*seconds, said["duration"]]
     for number, start, end in zip(range(len(ends)), [0, *seconds], ends, strict=True):
-        clip, called = seen(node, oracle, tmp_path / "clips.glb", tmp_path / "clip", take + number)
+        clip, called = seen(node, oracle, tmp_path / "clips.glb", tmp_path / "clip", take + number, rate)
         assert called["name"] == names_of(glb)[take + number]
         assert called["duration"] == pytest.approx(end - start, abs=1e-5)
-        expected = whole[start * RATE :][: len(clip)]
+        expected = whole[start * rate :][: len(clip)]
         assert np.abs(clip[: len(expected)] - expected).max() <= CLOSE * diagonal
 
 
@@ -71,6 +71,19 @@ def test_long_takes_hardly_grow(shared, name, fps):
     glb = clips_of(data, document)
     assert len(glb) <= 1.1 * len(data)
     assert worst_miss(take, glb, document) <= CLOSE
+
+
+@pytest.mark.parametrize("name", ["draco", "quantized", "sparse", "meshopt_high", "meshopt_medium"])
+def test_packed_files_grow_by_their_json_alone(shared, name):
+    """Cut on keys, clips lie in the file's own bytes, even compressed ones: new are their times and what names them."""
+    data = (shared / "data/gltf/variants" / f"Fox_{name}.glb").read_bytes()
+    take = opened(data)
+    cuts = [take.frames // 4, take.frames // 2]
+    glb = clips_of(data, cut_at(take, cuts))
+    before, after = chunks_of(data), chunks_of(glb)
+    channels = len(before[0]["animations"][take.take.index]["channels"])
+    assert len(after[1]) <= len(before[1]) + 250 * len(cuts)
+    assert len(glb) - len(data) <= (200 * channels + 400) * len(cuts)
 
 
 def test_morphs_of_many_targets_stay_sparse(shared):

@@ -81,6 +81,17 @@ def test_clips_are_valid(faults, interpolation):
     assert [fault for fault in faults(key_poses_of(data, document)) if fault.split()[0] not in before] == []
 
 
+@pytest.mark.parametrize("interpolation", ["LINEAR", "CUBICSPLINE"])
+def test_a_clip_of_the_last_frame_is_valid(faults, interpolation):
+    """A person may cut before it: one pose, and no two keys at one time, whether it moved until then or not."""
+    data = nodding(interpolation).glb()
+    take = opened(data, fps=30)
+    before = {fault.split()[0] for fault in faults(data)}
+    for cuts in ([take.frames - 1], [*range(1, take.frames, 9), take.frames - 1]):
+        found = faults(clips_of(data, cut_at(take, cuts)))
+        assert [fault for fault in found if fault.split()[0] not in before] == []
+
+
 @pytest.mark.parametrize("name", ["Fox.glb", "CesiumMan.glb", "Horse.glb", "godotman.glb"])
 def test_clips_of_models_are_valid(shared, faults, name):
     """Models that people share, cut in three."""

@@ -1,0 +1,106 @@
+"""How large files come back in clips: each model cut in four, on its own frames and between its keys.
+
+    python -m benchmarks.clip_sizes ../shared/data
+
+prints a line for each: bytes of the source (with its buffers), the share that the file with clips has of them, and
+where more than 1.1 of them, how much of it the JSON is.
+"""
+
+import json
+import struct
+import sys
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import pairwise
+from pathlib import Path
+
+from core.document import Segment, SegmentationDocument, Source, motion_name
+from core.errors import CaesuraError
+from core.formats.clips.options import ClipOptions
+from core.formats.clips.write import write_clips
+from core.formats.read import read_animation
+from core.limits import Limits
+from core.parameters import Parameters
+
+CUTS = (0.21, 0.48, 0.77)
+"""Shares of a take at which it is cut; of the takes whose truth is known, that is where they are cut."""
+
+BETWEEN = 29.0
+"""Frames a second that no model has, so that cuts fall between keys."""
+
+Parts = Mapping[str, bytes]
+
+
+def main() -> None:
+    """Measure every animated model under the folders, or the files, given."""
+    print(f"{'file':38} {'bytes':>9} {'on keys':>8} {'between':>8}   JSON")
+    for path in sorted(found(map(Path, sys.argv[1:]))):
+        parts = parts_of(path)
+        size = sum(map(len, parts.values()))
+        try:
+            files = [clips_of(parts, fps) for fps in ("source", BETWEEN)]
+        except CaesuraError as refused:
+            print(f"{path.name:38} {size:9} {refused.code}")
+            continue
+        shares = [len(file) / size for file in files]
+        texts = [(json_bytes(file) - json_bytes(parts[path.name])) / size for file in files]
+        told = "".join(f" {text:+.3f}" for share, text in zip(shares, texts, strict=True) if share > 1.1)
+        print(f"{path.name:38} {size:9} {shares[0]:8.3f} {shares[1]:8.3f}  {told}")
+
+
+def found(places: Iterable[Path]) -> Iterator[Path]:
+    """GLB and glTF files."""
+    for place in places:
+        files = place.rglob("*.gl*") if place.is_dir() else [place]
+        yield from (file for file in files if file.suffix in {".glb", ".gltf"})
+
+
+def parts_of(path: Path) -> dict[str, bytes]:
+    """A file, and the buffers that it names."""
+    parts = {path.name: path.read_bytes()}
+    if path.suffix == ".gltf":
+        names = {buffer.get("uri", "") for buffer in json.loads(parts[path.name])["buffers"]}
+        parts |= {name: file.read_bytes() for name in names if (file := path.parent / name[:200]).is_file()}
+    return parts
+
+
+def clips_of(parts: Parts, fps: float | str) -> bytes:
+    """The file with its longest take in clips."""
+    parameters = Parameters.parse({"fps": fps})
+    take = read_animation(parts, parameters, Limits(), scratch)
+    truth = next((Path(sys.argv[1]).rglob(f"{Path(name).stem}.truth.json") for name in parts), iter(()))
+    cuts = list(cuts_of(take.frames, take.frame_rate, next(truth, None)))
+    rate, bounds = take.frame_rate, [0, *cuts, take.frames]
+    document = SegmentationDocument(
+        id="x3t6kq2v5hn7ma4zr2wye6jd4p", algorithm="1", method="switching", motions=2, frames=take.frames,
+        frame_rate=rate, parameters=parameters.model_copy(update={"take": take.take.index}).model_dump(),
+        duration_seconds=(take.frames - 1) / rate, key_frames=(), energy=(None,) * take.frames,
+        source=Source(take=take.take.index, name=take.take.name, fps=rate, start_seconds=take.start_seconds),
+        segments=tuple(
+            Segment(start=a, end=b, start_seconds=a / rate, end_seconds=b / rate, motion=i % 2, name=motion_name(i % 2))
+            for i, (a, b) in enumerate(pairwise(bounds))
+        ),
+    )  # fmt: skip
+    return b"".join(write_clips(parts, document, ClipOptions(), scratch).pieces)
+
+
+def cuts_of(frames: int, rate: float, truth: Path | None) -> Iterable[int]:
+    """Where the truth cuts the take, else at `CUTS`; each a frame apart at least."""
+    if truth is None:
+        return sorted({min(max(round(share * frames), 1), frames - 1) for share in CUTS if frames > 1})
+    known = json.loads(truth.read_text(encoding="utf-8"))
+    return [int(segment["start"] * rate / known["fps"]) for segment in known["segments"][1:]]
+
+
+def json_bytes(file: bytes) -> int:
+    """Bytes of the JSON of a GLB or of a glTF."""
+    size: int = struct.unpack_from("<I", file, 12)[0] if file.startswith(b"glTF") else len(file)
+    return size
+
+
+def scratch(size: int) -> memoryview:
+    """Room to draw in."""
+    return memoryview(bytearray(size))
+
+
+if __name__ == "__main__":
+    main()
