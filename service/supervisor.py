@@ -18,6 +18,7 @@ from contextlib import closing
 from service.settings import ServiceSettings
 from worker.horses import forget_workers
 from worker.jobs import Jobs
+from worker.layout import check_layout
 from worker.lifeline import lifeline
 from worker.records import connect
 from worker.redis_server import EmbeddedRedis
@@ -117,6 +118,8 @@ def _watch(
             if not ready and _answers(listening):
                 ready = True
                 on_ready(_address(listening))
+                if settings.keys_needed:
+                    log.info("Every call needs a key here; `caesura keys add NAME` makes one")
     finally:
         web.process.terminate()
         workers.process.terminate()
@@ -127,6 +130,7 @@ def _watch(
 def _recover(settings: ServiceSettings) -> None:
     """Our own server holds what was left at the last end, and nobody can be working on it now."""
     client = connect(settings.redis_location)
+    check_layout(client)
     forget_workers(client)
     lost = Jobs.open(settings).reconcile(everything_started_is_lost=True)
     if lost:

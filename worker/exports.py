@@ -128,4 +128,5 @@ def run(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: st
     except Exception:
         records.write_export(identifier, form, ExportRecord(problem=INTERNAL_ERROR))
         raise
-    records.write_export(identifier, form, made)
+    if not records.write_export(identifier, form, made) and made.key is not None:
+        blobs.delete(made.key)

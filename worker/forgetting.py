@@ -11,9 +11,9 @@ OF_UPLOAD = ("clips", "keyframes")
 
 def forget_segmentation(jobs: Jobs, blobs: Blobs, identifier: str) -> None:
     """Cancel a segmentation where it is live, and delete it with every file made of it; the analysis stays."""
-    for form in jobs.records.exports(identifier):
-        _forget_export(jobs, blobs, identifier, form)
+    _forget_exports(jobs, blobs, identifier)
     jobs.delete(identifier)
+    _forget_exports(jobs, blobs, identifier)  # one that was kept in this moment; from now on none is
 
 
 def forget_animation(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
@@ -36,6 +36,11 @@ def forget_files(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
         jobs.records.delete_analysis(animation.id, digest)
     for part in animation.parts:
         blobs.delete(part.key)
+
+
+def _forget_exports(jobs: Jobs, blobs: Blobs, identifier: str) -> None:
+    for form in jobs.records.exports(identifier):
+        _forget_export(jobs, blobs, identifier, form)
 
 
 def _forget_export(jobs: Jobs, blobs: Blobs, identifier: str, form: str) -> None:

@@ -219,12 +219,22 @@ class Records:
         """The forms that were asked for."""
         return sorted(names(self.redis.smembers(keys.exports_key(segmentation))))
 
-    def write_export(self, segmentation: str, form: str, record: ExportRecord) -> None:
-        """Keep where the file is, or why there is none."""
+    def write_export(self, segmentation: str, form: str, record: ExportRecord) -> bool:
+        """Keep where the file is, or why there is none; False where the segmentation was deleted meanwhile."""
+        key = keys.segmentation_key(segmentation)
         with self.redis.pipeline() as pipe:
-            pipe.set(keys.export_key(segmentation, form), record.model_dump_json())
-            pipe.publish(keys.channel(segmentation), b"export")
-            pipe.execute()
+            while True:
+                pipe.watch(key)
+                if not pipe.exists(key):
+                    return False
+                pipe.multi()
+                pipe.set(keys.export_key(segmentation, form), record.model_dump_json())
+                pipe.publish(keys.channel(segmentation), b"export")
+                try:
+                    pipe.execute()
+                except redis.WatchError:
+                    continue
+                return True
 
     @staticmethod
     def _write(pipe: Pipeline, record: SegmentationRecord) -> None:

@@ -9,14 +9,16 @@ import time
 import pytest
 
 from worker import keys
+from worker.forgetting import forget_segmentation
 from worker.leftovers import aside, clear, path_of
 from worker.orphans import forget_orphans
 from worker.retention import sweep
-from worker.schema import AnalysisRecord
+from worker.schema import AnalysisRecord, ExportRecord
 
 HOLD = """
 import sys, time
 from pathlib import Path
+from worker.forgetting import forget_segmentation
 from worker.leftovers import held_file
 file = held_file(Path(sys.argv[1]))
 file.write(b"half of it")
@@ -118,3 +120,14 @@ def test_a_sweep_that_is_killed_leaves_no_orphan(idle, take, deletions):
     sweep(idle.jobs, idle.blobs, 0.0, 0.0, 0.0)
     assert list(idle.blobs.all()) == []
     assert not [key for key in idle.redis.scan_iter() if animation.id.encode() in key]
+
+
+def test_a_file_made_of_what_was_deleted_meanwhile_is_kept_nowhere(idle, take):
+    """The job that made it learns that nobody points to it any more."""
+    record = idle.submit(idle.upload(take))
+    made = ExportRecord(key="exports/x")
+    idle.jobs.submit_export(record.id, "npz")
+    assert idle.records.write_export(record.id, "npz", made)
+    forget_segmentation(idle.jobs, idle.blobs, record.id)
+    assert not idle.records.write_export(record.id, "npz", made)
+    assert idle.records.export(record.id, "npz") is None
