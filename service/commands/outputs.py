@@ -10,7 +10,8 @@ import click
 from core.document import SegmentationDocument
 from core.formats.clips.options import ClipOptions
 from service.commands.buffers import scratch
-from service.exports import frames_csv, segments_csv, segments_vtt
+from service.elan import segments_eaf
+from service.exports import frames_csv, plot_svg, segments_csv, segments_vtt
 
 Parts = Mapping[str, memoryview]
 Write = Callable[[Parts, SegmentationDocument, ClipOptions], tuple[str, Iterator[bytes]]]
@@ -37,12 +38,22 @@ def _key_poses(parts: Parts, found: SegmentationDocument, _: ClipOptions) -> tup
     return ".keyframes.glb", write_key_poses(parts, found, scratch).pieces
 
 
+def _plot_png(_parts: Parts, found: SegmentationDocument, _options: ClipOptions) -> tuple[str, Iterator[bytes]]:
+    from core.plot.layout import picture_of
+    from core.plot.png import png
+
+    return ".png", iter([png(picture_of(found))])
+
+
 FORMS: dict[str, tuple[Write, str]] = {
     "clips": (_clips, "Write the file again with its motions as clips: a GLB, or a zip."),
     "keyframes": (_key_poses, "Write the file again with its key poses alone, as a GLB."),
     "csv": (_text(".csv", segments_csv), "Write the segments as CSV."),
     "frames_csv": (_text(".frames.csv", frames_csv), "Write motion and energy of every frame as CSV."),
     "vtt": (_text(".vtt", segments_vtt), "Write the segments as WebVTT, for video players."),
+    "eaf": (_text(".eaf", segments_eaf), "Write motions and key-frames as EAF, for ELAN."),
+    "plot": (_text(".svg", plot_svg), "Draw the energy curve over the segments as SVG, for papers."),
+    "plot_png": (_plot_png, "Draw the same as PNG."),
 }
 DOCUMENT = _text(".json", lambda found: found.model_dump_json())
 

@@ -38,14 +38,15 @@ def takes(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def run(takes):
-    """All of them by one pattern, with documents, CSV and clips."""
-    return caesura(takes, "segment", "**/*.npz", "--motions", "2", "--out", "out", "--csv", "--clips", "--vtt")
+    """All of them by one pattern, with documents, tables, plots and clips."""
+    forms = ["--csv", "--clips", "--vtt", "--eaf", "--plot", "--plot-png"]
+    return caesura(takes, "segment", "**/*.npz", "--motions", "2", "--out", "out", *forms)
 
 
 def test_every_good_file_has_its_results(takes, run):
     """Named after the file, in folders as the files lie; the bad one has none, and nothing half-written is left."""
     written = sorted(str(path.relative_to(takes / "out")) for path in (takes / "out").rglob("*") if path.is_file())
-    suffixes = (".clips.zip", ".csv", ".json", ".vtt")
+    suffixes = (".clips.zip", ".csv", ".eaf", ".json", ".png", ".svg", ".vtt")
     assert written == [f"{day}/walk{suffix}" for day in ("monday", "tuesday") for suffix in suffixes]
     document = json.loads((takes / "out/monday/walk.json").read_text())
     rows = list(csv.DictReader((takes / "out/monday/walk.csv").read_text().splitlines()))
