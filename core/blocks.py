@@ -13,7 +13,7 @@ from typing import TypeVar
 
 from core.progress import Progress, ignore
 
-BLOCK_BYTES = 32 * 2**20
+BLOCK_BYTES = 192 * 2**20
 MOST_FRAMES = 64
 HEARTBEAT_SECONDS = 0.2
 

@@ -42,10 +42,12 @@ class Coding:
         values: Float32[np.ndarray, "columns frames"],
         noise: Float32[np.ndarray, "columns"],
         floor: int,
-        out: UInt16[np.ndarray, "columns frames"],
+        out: UInt16[np.ndarray, "kept frames"],
         histogram: Int[np.ndarray, "codes"],
     ) -> tuple[float, int]:
         """Encode values ≥ 0 and add their codes to the histogram, those below `floor` as code 0.
+
+        `out` takes the codes of every column, or has none.
 
         Returns the largest value, and how many are above their column's noise.
         """
@@ -76,6 +78,14 @@ class Coding:
     def tells_percentile(self, histogram: Int[np.ndarray, "codes"], percent: float = PERCENTILE) -> bool:
         """Whether the percentile is above code 0, which may stand for all codes below a floor."""
         return int(histogram[0]) <= (int(histogram.sum()) - 1) * percent / 100
+
+    def wider(self) -> "Coding":
+        """The coding for values 256 times as large."""
+        return Coding(self.gain / 2**8)
+
+    def reaches_percentile(self, histogram: Int[np.ndarray, "codes"], percent: float = PERCENTILE) -> bool:
+        """Whether the percentile is below the last code, which stands for everything above it too."""
+        return int(histogram[-1]) <= int(histogram.sum()) * (1 - percent / 100)
 
     def percentile(self, histogram: Int[np.ndarray, "codes"], percent: float = PERCENTILE) -> float:
         """The value that `percent` of all values do not exceed, as `np.percentile` defines it.

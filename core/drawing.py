@@ -14,10 +14,13 @@ REACH = np.float32(1e15)
 """The largest coordinate that is read: the squares of larger ones leave float32."""
 
 
-def draw(animation: Animation, block: Block) -> Float32[np.ndarray, "frames V 3"]:
-    """Frames [start, stop). Raises `InvalidModel` with frame and vertex of a NaN, an infinity or what is above 1e15."""
+def draw(animation: Animation, block: Block, checked: bool = False) -> Float32[np.ndarray, "frames V 3"]:
+    """Frames [start, stop). Raises `InvalidModel` with frame and vertex of a NaN, an infinity or what is above 1e15.
+
+    What was `checked` when it was drawn before is not looked at again: it is the same bytes.
+    """
     vertices = np.ascontiguousarray(animation.vertices(*block), dtype=np.float32)
-    if not largest_coordinate(vertices) <= REACH:  # NaN is not either
+    if not checked and not largest_coordinate(vertices) <= REACH:  # NaN is not either
         _refuse(vertices, range(*block))
     return vertices
 

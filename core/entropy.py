@@ -40,7 +40,7 @@ class Pairing:
         """C_n of every pair in turn, each row a matrix of levels x levels (Eq. 1, times the number of triangles)."""
         counted = [np.zeros((piece.width, self.levels**2), np.int32) for piece in self.pieces]
         for piece, counts in zip(self.pieces, counted, strict=True):
-            kernels.count_pairs(piece.block, piece.at, piece.later, piece.later_at, np.int32(self.levels), counts)
+            kernels.count_pairs(piece.block, piece.at, piece.later, piece.later_at, np.uint32(self.levels), counts)
         return np.concatenate(counted)
 
 
@@ -66,14 +66,15 @@ def pairings(blocks: Iterable[UInt8[np.ndarray, "columns _"]], lag: int, levels:
             yield Pairing(tuple(pieces), levels)
 
 
-def sliding_sums(counts: Iterable[Int[np.ndarray, "_ levels2"]], length: int) -> Iterator[Int[np.ndarray, "_ levels2"]]:
+def sliding_sums(
+    counts: Iterable[Int[np.ndarray, "_ levels2"]], length: int
+) -> Iterator[Int[np.ndarray, "_ levels2"]]:
     """C_{m−l+1} + … + C_m for every m ≥ l − 1, in as many pieces as come; O(1) a frame whatever the length."""
     before: np.ndarray | None = None
     for piece in counts:
         recent = piece if before is None else np.concatenate([before, piece])
-        total = np.cumsum(recent, axis=0, dtype=np.int64)
-        sums = total[length - 1 :].copy()
-        sums[1:] -= total[: max(len(total) - length, 0)]
+        sums = np.empty((max(len(recent) - length + 1, 0), recent.shape[1]), np.int64)
+        kernels.slide(recent, length, sums)
         before = recent[max(len(recent) - length + 1, 0) :]
         if len(sums):
             yield sums
@@ -81,7 +82,6 @@ def sliding_sums(counts: Iterable[Int[np.ndarray, "_ levels2"]], length: int) ->
 
 def joint_entropy(counts: Int[np.ndarray, "frames levels2"]) -> Float[np.ndarray, "frames"]:
     """H = −Σ P ln P with P = counts / Σ counts (Eq. 2), in nats: 0 to ln B². Nothing counted: 0."""
-    total = np.maximum(counts.sum(axis=1), 1).astype(np.float64)
-    terms = counts * np.log(np.maximum(counts, 1))  # 0 ln 0 = 0
-    entropy = np.log(total) - terms.sum(axis=1) / total
-    return np.asarray(np.maximum(entropy, 0.0))
+    entropy = np.empty(len(counts))
+    kernels.entropy(np.ascontiguousarray(counts, np.int64), entropy)
+    return entropy

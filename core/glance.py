@@ -6,6 +6,7 @@ import numpy as np
 
 from core.animation import Animation
 from core.descriptors.projection import sample_frames
+from core.descriptors.strain import TriangleStrain
 from core.drawing import draw_frames, largest_coordinate
 from core.surfaces import Surface
 
@@ -13,9 +14,11 @@ FRAMES = 32
 LEAST_FRAMES = 8
 SHARE = 40
 """One frame in so many is looked at, within these bounds, for each costs as much as any other."""
-AT_ONCE = 8
+TILES = 8
+"""Tiles of triangles that are looked at; what they miss shows in the pass over all, which is then made again."""
 THINNED = 8
 COMMON = 0.98
+AT_ONCE_BYTES = 32 * 2**20
 
 
 @dataclass(frozen=True)
@@ -28,15 +31,15 @@ class Glance:
 
     @classmethod
     def at(cls, animation: Animation, surface: Surface) -> "Glance":
-        """8 to 32 frames, evenly spaced; `common` is from every 8th column."""
-        reach = strain = 0.0
-        thinned: list[np.ndarray] = []
+        """8 to 32 frames, evenly spaced, on a few tiles of triangles; `common` is from every 8th column of those."""
         frames = sample_frames(animation.frames, min(max(animation.frames // SHARE, LEAST_FRAMES), FRAMES))
-        for start in range(0, len(frames), AT_ONCE):
-            vertices = draw_frames(animation, frames[start : start + AT_ONCE])
+        looked = surface.thinned(TILES) if isinstance(surface, TriangleStrain) else surface
+        at_once = max(AT_ONCE_BYTES // (12 * max(animation.vertex_count, 1)), 1)
+        reach, strain, thinned = 0.0, 0.0, [np.zeros(1, np.float32)]
+        for start in range(0, len(frames), at_once):
+            vertices = draw_frames(animation, frames[start : start + at_once])
             reach = max(reach, largest_coordinate(vertices))
-            for _, tile in surface.tiles(vertices):
+            for _, tile in looked.tiles(vertices):
                 strain = max(strain, float(tile.max(initial=0)))
                 thinned.append(tile[::THINNED].ravel())
-        values = np.concatenate([*thinned, np.zeros(1, np.float32)])
-        return cls(reach, strain, float(np.quantile(values, COMMON)))
+        return cls(reach, strain, float(np.quantile(np.concatenate(thinned), COMMON)))

@@ -21,8 +21,8 @@ from core.rest import rest_shape
 from core.segmentation import Segmentation, in_order_of_appearance
 from core.survey import Survey, survey
 
-CODES_BYTES = 256 * 2**20
-"""Memory for the codes of all strains; where they do not fit, strain is computed twice."""
+CODES_BYTES = 128 * 2**20
+"""Memory for the codes of strains; those of frames that do not fit are computed twice."""
 
 
 def analyse(

@@ -1,5 +1,6 @@
 """The pass over the vertices: everything that is measured on a block of frames, and its reduction in block order."""
 
+from collections import deque
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
@@ -11,6 +12,7 @@ from core.animation import Animation
 from core.basis import Basis, basis
 from core.blocks import Block, blocks_of, frames_per_block, map_blocks
 from core.body import Body
+from core.buffers import Buffers
 from core.codes import CODES, Coding
 from core.descriptors.strain import ROUNDING
 from core.drawing import draw
@@ -23,10 +25,8 @@ STILL_SHARE = 1e-6
 
 @dataclass(frozen=True)
 class Page:
-    """One block of frames, measured: codes where they are kept, and what is summed or compared over the take."""
+    """One block of frames, measured: what is compared over the take, and what is kept of every frame."""
 
-    codes: UInt16[np.ndarray, "columns frames"] | None
-    histogram: Int[np.ndarray, "codes"]
     largest: float
     above_noise: int
     widest: float
@@ -43,33 +43,45 @@ class Surveyor:
     coding: Coding
     floor: int
     noise: Float32[np.ndarray, "columns"]
-    keep_codes: bool
     projections: Basis | None
+    kept: UInt16[np.ndarray, "codes"]
+    histograms: "Histograms"
+
+    def keeps(self, block: Block) -> bool:
+        """Whether the codes of the block are kept: those of the first frames are, as many as there is memory for."""
+        return block[1] * self.body.surface.columns <= len(self.kept)
+
+    def place(self, block: Block) -> UInt16[np.ndarray, "columns frames"]:
+        """Where the codes of a block are that is kept. One piece of memory holds all: many would be cleared singly."""
+        columns = self.body.surface.columns
+        return self.kept[block[0] * columns : block[1] * columns].reshape(columns, block[1] - block[0])
 
     def measure(self, block: Block) -> Page:
         """Draw the block, and read every tile of its strain while it is in the cache."""
         vertices = draw(self.animation, block)
-        means, histogram = self.body.patches.empty(len(vertices)), np.zeros(CODES, np.int32)
+        means, histogram = self.body.patches.empty(len(vertices)), self.histograms.take()
         largest, above = 0.0, 0
-        kept = np.empty((self.body.surface.columns if self.keep_codes else 0, len(vertices)), np.uint16)
+        kept = self.place(block) if self.keeps(block) else None
         for columns, tile in self.body.surface.tiles(vertices):
             if self.body.patches.patches:
                 self.body.patches.add(columns, tile, means)
-            codes = kept[columns] if self.keep_codes else np.empty(tile.shape, np.uint16)
+            codes = np.empty((0, len(vertices)), np.uint16) if kept is None else kept[columns]
             most, more = self.coding.read(tile, self.noise[columns], self.floor, codes, histogram)
             largest, above = max(largest, most), above + more
+        self.histograms.give(histogram)
         apart = self.body.pairs.measure(vertices)
         described = (means.T, apart)
         if self.projections is not None:
             described = (self.projections[0].project(means.T), self.projections[1].project(apart))
         widest = float(np.abs(apart).max(initial=0))
-        kept_codes = kept if self.keep_codes else None
-        return Page(kept_codes, histogram, largest, above, widest, described)
+        return Page(largest, above, widest, described)
 
-    def codes(self, block: Block) -> UInt16[np.ndarray, "columns frames"]:
-        """The codes of the block, drawn again."""
-        vertices = draw(self.animation, block)
-        codes = np.empty((self.body.surface.columns, len(vertices)), np.uint16)
+    def codes(self, block: Block, buffers: Buffers) -> UInt16[np.ndarray, "columns frames"]:
+        """The codes of the block: as kept, or from the vertices, drawn again."""
+        if self.keeps(block):
+            return self.place(block)
+        vertices = draw(self.animation, block, checked=True)
+        codes = buffers.empty((self.body.surface.columns, len(vertices)), np.uint16)
         for columns, tile in self.body.surface.tiles(vertices):
             self.coding.encode(tile, codes[columns])
         return codes
@@ -81,7 +93,6 @@ class Survey:
 
     surveyor: Surveyor
     blocks: list[Block]
-    codes: list[UInt16[np.ndarray, "columns _"]] | None
     histogram: Int[np.ndarray, "codes"]
     largest: float
     above_noise: int
@@ -113,14 +124,37 @@ class Survey:
         edges = self.surveyor.coding.edges(scale, levels)
         edges = np.concatenate([edges, np.full(-len(edges) % 3, CODES - 1, np.uint16)])  # which no code is above
 
-        def digitized(source: Block | np.ndarray) -> np.ndarray:
-            codes = self.surveyor.codes(source) if isinstance(source, tuple) else source
-            bins = np.empty(codes.shape, np.uint8)
+        buffers = Buffers()
+
+        def digitized(block: Block) -> np.ndarray:
+            codes = self.surveyor.codes(block, buffers)
+            bins = buffers.empty(codes.shape, np.uint8)
             kernels.digitize(codes, edges, bins)
             return bins
 
-        sources: Iterable[Block | np.ndarray] = self.blocks if self.codes is None else self.codes
-        return map_blocks(digitized, sources, threads, progress=progress, stage="energy", total=len(self.blocks))
+        return map_blocks(digitized, self.blocks, threads, progress=progress, stage="energy", total=len(self.blocks))
+
+
+class Histograms:
+    """Counts of codes for as many threads as ask: integers, whose sum is the same in any order."""
+
+    def __init__(self) -> None:
+        self._free: deque[np.ndarray] = deque()
+
+    def take(self) -> Int[np.ndarray, "codes"]:
+        """Counts to add to, nobody else's until they are given back."""
+        try:
+            return self._free.pop()
+        except IndexError:
+            return np.zeros(CODES, np.int64)
+
+    def give(self, counts: Int[np.ndarray, "codes"]) -> None:
+        """Give them back."""
+        self._free.append(counts)
+
+    def total(self) -> Int[np.ndarray, "codes"]:
+        """The sum of all that was given back."""
+        return np.asarray(sum(self._free, np.zeros(CODES, np.int64)))
 
 
 def survey(
@@ -136,8 +170,9 @@ def survey(
         coding,
         int(coding.encode(np.full((1, 1), glance.common, np.float32))[0, 0]),
         body.surface.noise(glance.reach),
-        2 * animation.frames * body.surface.columns <= memory_bytes,
         basis(animation, body, threads, progress),
+        np.empty(min(animation.frames * body.surface.columns, memory_bytes // 2), np.uint16),
+        Histograms(),
     )
     blocks = blocks_of(animation.frames, frames_per_block(animation.vertex_count))
 
@@ -146,26 +181,23 @@ def survey(
         return _bound(by, blocks, pages)
 
     take = taken(surveyor)
-    if surveyor.floor == 0 or coding.tells_percentile(take.histogram):
+    while not coding.reaches_percentile(take.histogram):  # where the frames looked at were nothing like the rest
+        coding = coding.wider()
+        take = taken(replace(surveyor, coding=coding, floor=0, histograms=Histograms()))
+    if take.surveyor.floor == 0 or coding.tells_percentile(take.histogram):
         return take
-    return taken(replace(surveyor, floor=0))  # the frames looked at were nothing like the rest
+    return taken(replace(surveyor, floor=0, histograms=Histograms()))
 
 
-def _bound(surveyor: Surveyor, blocks: list[Block], pages: Iterable[Page]) -> Survey:
-    """The pages of a take, in order, as one; only one histogram is held beside them."""
-    histogram, above, widest, kept = np.zeros(CODES, np.int64), 0, 0.0, []
-    for page in pages:
-        histogram += page.histogram
-        above += page.above_noise
-        widest = max(widest, page.widest)
-        kept.append(replace(page, histogram=histogram))
+def _bound(surveyor: Surveyor, blocks: list[Block], measured: Iterable[Page]) -> Survey:
+    """The pages of a take, in order, as one."""
+    pages = list(measured)
     return Survey(
         surveyor,
         blocks,
-        [page.codes for page in kept if page.codes is not None] if surveyor.keep_codes else None,
-        histogram,
-        max(page.largest for page in kept),
-        above,
-        widest,
-        (np.concatenate([page.described[0] for page in kept]), np.concatenate([page.described[1] for page in kept])),
+        surveyor.histograms.total(),
+        max(page.largest for page in pages),
+        sum(page.above_noise for page in pages),
+        max(page.widest for page in pages),
+        (np.concatenate([page.described[0] for page in pages]), np.concatenate([page.described[1] for page in pages])),
     )

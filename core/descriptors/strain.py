@@ -9,11 +9,13 @@ This form keeps its digits in float32; (tr / 2)² − det does not.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from jaxtyping import Float, Float32, Float64, Int
 
+from core.buffers import Buffers
 from core.descriptors import kernels
 from core.descriptors.gathering.kernels import gather
 from core.descriptors.kernels import WIDTH
@@ -91,8 +93,9 @@ class TriangleStrain:
         """
         frames = len(block)
         whole, scale = _in_widths(block), _in_widths(self._scale(block))
-        rows = np.empty((self._most_members, 3, WIDTH), np.float32)
-        tile, scratch = np.empty((TILE, WIDTH), np.float32), np.empty(3 * WIDTH, np.float32)
+        rows = self._buffers.empty((self._most_members, 3, WIDTH), np.float32)
+        tile = self._buffers.empty((TILE, WIDTH), np.float32)
+        scratch = self._buffers.empty((3 * WIDTH,), np.float32)
         for number, part in enumerate(self.parts):
             out = tile[: len(part.corners)]
             pieces = []
@@ -104,9 +107,18 @@ class TriangleStrain:
                     pieces.append(out[:, : frames - start].copy())
             yield slice(number * TILE, number * TILE + len(out)), np.concatenate(pieces, axis=1) if pieces else out
 
+    def thinned(self, most: int) -> "TriangleStrain":
+        """At most so many of the tiles, evenly spread: enough for a look. All where a frame's whole area is needed."""
+        step = 1 if self.scale_invariant else -(-len(self.parts) // most)
+        return replace(self, parts=self.parts[::step])
+
     def noise(self, reach: float) -> Float32[np.ndarray, "columns"]:
         """The strain that rounding alone gives each triangle where coordinates go up to `reach`."""
         return (ROUNDING * reach * self.thinness).astype(np.float32)
+
+    @cached_property
+    def _buffers(self) -> Buffers:
+        return Buffers()
 
     @property
     def _most_members(self) -> int:
