@@ -2,6 +2,7 @@
 
     python -m benchmarks.speed            # minutes; writes docs/performance.md and docs/performance.svg
     python -m benchmarks.speed --quick    # under 40 s; prints alone
+    python -m benchmarks.speed --huge     # and the command on an NPZ of 8 GB in a temporary folder
 
 Every figure is a ratio of things measured in the same run, on two threads, best of several alternating turns, in
 processor time per thread: other programs disturb it less than the clock.
@@ -10,23 +11,27 @@ Ends with status 1 where a ratio misses its bound.
 
 import argparse
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from importlib import import_module
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from benchmarks.curve import Curve
+from benchmarks.detectors import DETECTORS
 from benchmarks.growth import Series, drawn
+from benchmarks.memory import beyond_input, of_the_command
 from benchmarks.numpy_twin import twin
 from benchmarks.report import write_section
-from benchmarks.stopwatch import AnonymousPeak, least
+from benchmarks.skinned import Skinned
+from benchmarks.stopwatch import Cost, least
 from benchmarks.tube import Tube
 from core.blocks import blocks_of
 from core.keyframes import local_maxima
 from core.parameters import Parameters
-from core.pipeline import segment
+from core.pipeline import analyse, cut, segment
 
 THREADS = 2
 DOCS = Path(__file__).parent.parent / "docs"
@@ -115,22 +120,16 @@ def against_twin(turns: int) -> Iterator[Row]:
 
 
 def growth(sizes: tuple[tuple[int, int], ...], turns: int) -> tuple[list[Row], list[Series]]:
-    """Time per triangle-frame as frames and triangles grow, and the most memory on the way."""
+    """Time per triangle-frame as frames and triangles grow."""
     points: dict[tuple[int, int], float] = {}
-    rows = []
     for frames, triangles in sizes:
         tube = Tube.of(frames, triangles)
         curve = Curve(tube.animation(frames))
         if not points:
             curve.energy()  # compiled code is loaded by the first, which is not what is measured
-        with AnonymousPeak() as peak:
-            points[frames, triangles] = least({"curve": curve.energy}, turns)["curve"].busy / THREADS
-        if frames == max(m for m, _ in sizes):
-            rows.append(
-                Row(f"MB of anonymous memory beyond input, {frames:,} × {triangles:,}", peak.bytes / 1e6, most=256)
-            )
+        points[frames, triangles] = least({"curve": curve.energy}, turns)["curve"].busy / THREADS
     per_value = {size: seconds / (size[0] * size[1]) * 1e9 for size, seconds in points.items()}
-    rows += [Row(f"ns a triangle-frame, {m:,} × {t:,}", cost) for (m, t), cost in per_value.items()]
+    rows = [Row(f"ns a triangle-frame, {m:,} × {t:,}", cost) for (m, t), cost in per_value.items()]
     series = []
     for name, fixed in (("frames", 1), ("triangles", 0)):
         line = [size for size in sizes if sum(size[fixed] == other[fixed] for other in sizes) > 1]
@@ -140,6 +139,41 @@ def growth(sizes: tuple[tuple[int, int], ...], turns: int) -> tuple[list[Row], l
         )
         series.append(Series(f"as {name} grow", [(size[0] * size[1], points[size]) for size in line]))
     return rows, series
+
+
+def skinned(turns: int) -> Iterator[Row]:
+    """Reading, posing and skinning, over the curve alone."""
+    take = Skinned.made()
+    costs = least(take.ways(), turns)
+    size = f"{take.sampled.frames:,} × {take.sampled.vertex_count:,} vertices"
+    yield Row(f"skinned file to energy curve over the same from vertices, {size}", ratio(costs, "file", "vertices"), 2)
+
+
+def against_ruptures(turns: int, frames: int) -> Iterator[Row]:
+    """The cut alone beside KernelCPD, which is told how many cuts there are; both on the features of one take."""
+    try:
+        import_module("ruptures")
+    except ImportError:
+        yield Row("KernelCPD of ruptures over our cut: not installed", float("nan"))
+        return
+    told = Parameters.parse({"motions": 4})
+    analysis = analyse(Tube.of(frames, 2_000).animation(frames), told, threads=THREADS)
+    values = np.concatenate([feature.values for feature in analysis.features], axis=1).astype(np.float64)
+    cuts = int(np.count_nonzero(np.diff(cut(analysis, told).labels)))
+    ways = {"ruptures": lambda: DETECTORS["kernel-cpd"](values, cuts), "cut": lambda: cut(analysis, told)}
+    yield Row(f"KernelCPD of ruptures over our cut, {frames:,} frames", ratio(least(ways, turns), "ruptures", "cut"))
+
+
+def memory(huge: bool) -> Iterator[Row]:
+    """What is held at most beyond the input, each in a process of its own."""
+    yield Row("MB of anonymous memory beyond input, whole analysis, 64,000 × 5,000", beyond_input(64_000, 5_000), 256)
+    if huge:
+        yield Row("MB of anonymous memory, the command on a mapped NPZ of 8 GB", of_the_command(8), 1_000)
+
+
+def ratio(costs: Mapping[str, Cost], one: str, other: str) -> float:
+    """How many times the processor time of `other` is that of `one`."""
+    return costs[one].busy / costs[other].busy
 
 
 def breakdown(turns: int, frames: int) -> Iterator[Row]:
@@ -162,12 +196,16 @@ def main() -> None:
     """Measures, prints the table, writes the page unless quick, and says by the status whether every bound holds."""
     options = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     options.add_argument("--quick", action="store_true", help="smaller and fewer; writes nothing")
-    quick = options.parse_args().quick
+    options.add_argument("--huge", action="store_true", help="also the command on a file of 8 GB")
+    given = options.parse_args()
+    quick = given.quick
     turns, frames = (2, 1_280) if quick else (5, 4_580)
     rows = [*against_copy(turns, frames), *against_copy_of_large(turns, 50_000 if quick else 200_000)]
     rows += [*against_twin(1 if quick else 3), *breakdown(turns, 640)]
     grown, series = growth(QUICK_GROWTH if quick else GROWTH, 1 if quick else 3)
-    rows += grown
+    rows += [*grown, *against_ruptures(1, 1_000 if quick else 4_580)]
+    if not quick:
+        rows += [*skinned(turns), *memory(given.huge)]
     if not quick:
         (DOCS / "performance.svg").write_text(drawn(series), encoding="utf-8")
         write_section(DOCS / "performance.md", "speed", table(rows))

@@ -35,7 +35,7 @@ class AnonymousPeak:
     """
 
     def __enter__(self) -> Self:
-        self.bytes, self._before = 0, _anonymous()
+        self.bytes, self._before = 0, anonymous()
         self._over = threading.Event()
         self._watch = threading.Thread(target=self._look)
         self._watch.start()
@@ -47,10 +47,13 @@ class AnonymousPeak:
 
     def _look(self) -> None:
         while not self._over.wait(SAMPLE_SECONDS):
-            self.bytes = max(self.bytes, _anonymous() - self._before)
+            self.bytes = max(self.bytes, anonymous() - self._before)
 
 
-def _anonymous() -> int:
-    status = Path("/proc/self/status")
-    lines = status.read_text().splitlines() if status.exists() else []
+def anonymous(process: str = "self") -> int:
+    """Bytes of anonymous memory of a process; 0 where it has ended, or there is no /proc."""
+    try:
+        lines = (Path("/proc") / process / "status").read_text().splitlines()
+    except OSError:
+        return 0
     return next((int(line.split()[1]) * 1024 for line in lines if line.startswith("RssAnon")), 0)
