@@ -18,7 +18,7 @@ help:
 	@echo "make lint    format, rules, types and layers"
 	@echo "make audit   look every locked package up among known vulnerabilities, and the sources for unsafe calls"
 	@echo "make dist    a wheel and the sources of it, with the page's libraries inside, in dist/"
-	@echo "make bench   measure accuracy, and write docs/accuracy.md"
+	@echo "make bench   measure accuracy, and write docs/accuracy.md: most of an hour"
 	@echo "make fuzz    try files made of files for FUZZ_SECONDS (300)"
 	@echo "make chaos   kill everything at random while takes are segmented; nothing may be lost"
 	@echo "make lock    resolve the dependencies anew (needs uv)"
@@ -66,8 +66,14 @@ dist: setup
 chaos: setup
 	$(BIN)/python -m benchmarks.chaos
 
+# TAKES, CMU: folders; JOIN: glTF files with several clips; PEERS: the Python of benchmarks/peers.txt. All may be left out.
 bench: setup
-	$(BIN)/python -m benchmarks.accuracy
+	$(BIN)/python -m benchmarks.edges
+	$(BIN)/python -m benchmarks.repetitions
+	$(BIN)/python -m benchmarks.doubt
+	$(BIN)/python -m benchmarks.counting $(JOIN)
+	$(if $(CMU),$(BIN)/python -m benchmarks.aca_authors --cmu $(CMU))
+	$(BIN)/python -m benchmarks.accuracy $(TAKES) $(if $(CMU),--cmu $(CMU)) $(if $(PEERS),--peers $(PEERS)) --figures --held-back 4 --seeds 3
 
 fuzz: setup
 	@$(BIN)/python -m $(LOCKED) --require-hashes --only-binary :all: -r requirements.fuzz.lock

@@ -5,7 +5,8 @@
 Two trials of CMU subject 86, 120 frames a second, the number of motions told, the parameters their program has. Frame
 accuracy under the best matching of labels, on reduced frames as they count; mean and standard deviation over seeds. A
 row `as measured` has the lengths of first segments as their program takes them (see `core.alignment.kernels.pure`),
-the row above as their papers say, which is what `method=aca` and `method=haca` do.
+the row above as their papers say, which is what `method=aca` and `method=haca` do. Writes its table into
+docs/accuracy.md, or with `--print` not.
 """
 
 import argparse
@@ -17,6 +18,7 @@ from jaxtyping import Float, Int
 from threadpoolctl import threadpool_limits
 
 from benchmarks.joint_angles import joint_angles, true_motions
+from benchmarks.report import ACCURACY, write_section
 from core.agreement import frame_accuracy
 from core.alignment.cluster_analysis import aligned
 from core.alignment.frame_kernel import frame_kernel
@@ -100,16 +102,21 @@ def row(trial: str, name: tuple[str, str], found: list[float]) -> str:
 
 
 def main() -> None:
-    """Prints the table, a line as soon as it is known."""
+    """Prints the table, a line as soon as it is known, and writes it."""
     options = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     options.add_argument("--cmu", type=Path, required=True, help="folder of 86_01.amc, 86_09.amc and mocap.txt")
     options.add_argument("--seeds", type=int, default=10)
+    options.add_argument("--print", action="store_true", help="print only")
     given = options.parse_args()
-    print("trial  method    first cuts   ours           authors        agree")
+    lines = ["trial  method    first cuts   ours           authors        agree"]
+    print(lines[0])
     with threadpool_limits(1):
         for trial in TRIALS:
             for name, found in accuracies(given.cmu, trial, given.seeds):
-                print(row(trial, name, found), flush=True)
+                lines.append(row(trial, name, found))
+                print(lines[-1], flush=True)
+    if not given.print:
+        write_section(ACCURACY, "authors", "\n".join(["```", *lines, "```"]))
 
 
 if __name__ == "__main__":

@@ -12,11 +12,9 @@ from samples.repertoire import MOTIONS, STILL, T_POSE
 from samples.take import RATE, Part, Sample, perform
 
 SECONDS = (3.5, 10.0)  # of a segment
-HELD_BACK = tuple(range(301, 309))
-"""Seeds at which nobody looked while the methods were made."""
 
 
-def choreography(seed: int, motions: int | None = None) -> Sample:
+def choreography(seed: int, motions: int | None = None, seconds: tuple[float, float] = SECONDS) -> Sample:
     """So many motions, or four to seven, in about twice as many segments; odd seeds are smooth, even ones of rigid
     parts.
 
@@ -33,7 +31,7 @@ def choreography(seed: int, motions: int | None = None) -> Sample:
     performed = []
     for name in order:
         motion = repertoire[name]
-        repetitions = max(round(random.uniform(*SECONDS) / motion.seconds), 1)
+        repetitions = max(round(random.uniform(*seconds) / motion.seconds), 1)
         performed.append(Part(motion, motion.ends(repetitions, RATE, random)))
     take = perform(performed, random)
     return Sample(smooth_glb(body(), take) if seed % 2 else rigid_glb(parts(), take), take.truth)

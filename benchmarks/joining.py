@@ -6,6 +6,7 @@ Joined where an engine would, in the places and turns of the nodes, so that rigi
 import io
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -77,8 +78,16 @@ class JoinedTracks(Tracks):
         return out
 
 
-def joined(name: str, data: bytes, motions: int, seed: int) -> tuple[Animation, Int[np.ndarray, "frames"]]:
-    """A take of so many of a glTF's clips, or all it has, in twice as many segments; and the truth of every frame."""
+class Joined(NamedTuple):
+    """A joined take, the motion of every frame, and how often each segment performs its own."""
+
+    animation: Animation
+    truth: Int[np.ndarray, "frames"]
+    repeats: tuple[int, ...]
+
+
+def joined(name: str, data: bytes, motions: int, seed: int, seconds: tuple[float, float] = SECONDS) -> Joined:
+    """A take of so many of a glTF's clips, or all it has, in twice as many segments."""
     random = np.random.default_rng(seed)
     clips, of_file, drawing = clips_of(name, data)
     count = min(motions, len(clips))
@@ -87,7 +96,7 @@ def joined(name: str, data: bytes, motions: int, seed: int) -> tuple[Animation, 
     while count > 1 and len(order) < 2 * count + 1:
         following = chosen[int(random.integers(count))]
         order += [following] if following != order[-1] else []
-    ends = [_ends(clips[number], random) for number in order]
+    ends = [_ends(clips[number], seconds, random) for number in order]
     bounds = np.concatenate([[0], np.cumsum([round(float(e[-1])) for e in ends])]).tolist()
     passages = tuple(
         _passage(clips[number], repetitions, (start, stop, bounds[-1]), random)
@@ -97,7 +106,7 @@ def joined(name: str, data: bytes, motions: int, seed: int) -> tuple[Animation, 
     vertices = replace(drawing, tracks=JoinedTracks(**vars(drawing.tracks), passages=passages), start_seconds=0.0)
     take = Take(0, name, (frames - 1) / RATE, frames, RATE)
     made = replace(of_file, vertices=vertices, frames=frames, frame_rate=RATE, take=take, start_seconds=0.0, gltf=None)
-    return made, np.repeat(order, np.diff(bounds))
+    return Joined(made, np.repeat(order, np.diff(bounds)), tuple(map(len, ends)))
 
 
 def clips_of(name: str, data: bytes) -> tuple[list[Clip], Animation, PosedVertices]:
@@ -118,10 +127,10 @@ def clips_of(name: str, data: bytes) -> tuple[list[Clip], Animation, PosedVertic
     return clips, *last
 
 
-def _ends(clip: Clip, random: np.random.Generator) -> Float[np.ndarray, "repetitions"]:
+def _ends(clip: Clip, seconds: tuple[float, float], random: np.random.Generator) -> Float[np.ndarray, "repetitions"]:
     """The frames at which repetitions end, from 0."""
     length = len(clip.poses) - 1
-    repetitions = max(round(random.uniform(*SECONDS) * RATE / length), 1)
+    repetitions = max(round(random.uniform(*seconds) * RATE / length), 1)
     return np.asarray(np.cumsum(length * random.uniform(1 - SPEED, 1 + SPEED, repetitions)))
 
 

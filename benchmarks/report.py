@@ -3,6 +3,9 @@
 import re
 from pathlib import Path
 
+DOCS = Path(__file__).resolve().parent.parent / "docs"
+ACCURACY = DOCS / "accuracy.md"
+
 
 def write_section(page: Path, name: str, text: str) -> None:
     """Replace what stands between `<!-- name -->` and `<!-- /name -->`; ValueError where there is none."""

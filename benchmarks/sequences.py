@@ -1,70 +1,116 @@
 """Sequences whose motions are known: what the methods are measured on."""
 
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from jaxtyping import Int
 
-from benchmarks.choreography import HELD_BACK, choreography
+from benchmarks import choreography as choreographies
+from benchmarks import joining
+from benchmarks.choreography import choreography
 from benchmarks.cmu import annotation, skinned
+from benchmarks.creatures import creature
+from benchmarks.joining import Joined, joined
+from benchmarks.labelled import Stretch, labelled, per_frame, read_labels
 from core.analysis import Analysis
 from core.formats.read import read_animation
 from core.limits import Limits
 from core.parameters import Parameters
 from core.pipeline import analyse
 from samples.figures import FIGURES, figure
+from samples.take import Sample
 
 DEVELOPMENT = frozenset({"fox_hard_0", "godotman_hard_0", "figure smooth", "figure rigid", "86_09"})
-"""Takes on which the default method's constants were fixed; all others are reported on."""
+"""Takes on which the default method's constants were fixed, besides those of seeds below `HELD_BACK`."""
+HELD_BACK = 301
+"""The first seed at which nobody looked while constants were fixed: below it choreographies, creatures and joined
+takes are for development, from it on they are kept back."""
 
 
 @dataclass(frozen=True)
 class Known:
-    """One take, analysed, with its true motion per frame, and for captured ones the accepted range of each cut."""
+    """One take, analysed, with its true motion per frame, and for captured ones the accepted range of each cut.
+
+    `repeats` is how often each true segment performs its motion, where that is known.
+    """
 
     name: str
     group: str
     analysis: Analysis
     truth: Int[np.ndarray, "frames"]
     ranges: tuple[tuple[int, int], ...] = ()
+    repeats: tuple[int, ...] = ()
+
+    @property
+    def motions(self) -> int:
+        """How many motions there truly are."""
+        return len(np.unique(self.truth))
+
+    @classmethod
+    def of_sample(cls, name: str, group: str, sample: Sample, threads: int = 1) -> "Known":
+        """A take of the sample figures."""
+        analysis = _analysed("sample.glb", sample.glb, threads)
+        repeats = tuple(len(ends) for ends in sample.truth.repeats)
+        return cls(name, group, analysis, truth_of(sample.truth.document(), analysis), repeats=repeats)
+
+    @classmethod
+    def of_joined(cls, name: str, group: str, made: Joined, threads: int = 1) -> "Known":
+        """A take joined from clips."""
+        return cls(name, group, analyse(made.animation, threads=threads), made.truth, repeats=made.repeats)
 
 
 def sequences(folder: Path | None, cmu: Path | None, *, figures: bool, held_back: int, threads: int) -> Iterator[Known]:
-    """Captured trials, then FILE.glb beside FILE.truth.json, then the sample characters and made-up takes."""
-    for motion in sorted(cmu.glob("*.amc") if cmu else ()):
-        annotated = annotation((motion.parent / "mocap.txt").read_text(), motion.stem)
-        analysis = analyse(skinned(motion.parent, motion.stem), Parameters(), threads=threads)
+    """Captured trials, then the labelled files of a folder, then the sample characters and takes kept back."""
+    yield from captured(cmu, threads) if cmu else ()
+    for model, labels in labelled(folder).items() if folder else ():
+        analysis = _analysed(model.name, model.read_bytes(), threads)
+        truth = per_frame(read_labels(labels), analysis.frames, analysis.frame_rate)
+        name = model.stem
+        yield Known(name, "development" if name in DEVELOPMENT else "shared", analysis, truth)
+    for name in FIGURES if figures else ():
+        yield Known.of_sample(f"figure {name}", "development", figure(name), threads)
+    yield from islice(kept_back(HELD_BACK, threads), held_back)
+
+
+def captured(folder: Path, threads: int) -> Iterator[Known]:
+    """Every trial of a CMU subject in a folder of SUBJECT.asf, TRIAL.amc and mocap.txt."""
+    for motion in sorted(folder.glob("*.amc")):
+        annotated = annotation((folder / "mocap.txt").read_text(), motion.stem)
+        analysis = analyse(skinned(folder, motion.stem), Parameters(), threads=threads)
         frames = np.concatenate([annotated.frames, annotated.frames[-1:].repeat(analysis.frames)])[: analysis.frames]
         yield Known(motion.stem, "captured", analysis, frames, annotated.ranges[:-1])
-    for name, glb, document in takes(folder, figures, held_back):
-        animation = read_animation({f"{name}.glb": glb}, Parameters(), Limits.none(), _scratch)
-        analysis = analyse(animation, Parameters(), threads=threads)
-        yield Known(name, "development" if name in DEVELOPMENT else "reported", analysis, truth_of(document, analysis))
 
 
-def takes(folder: Path | None, figures: bool, held_back: int) -> Iterator[tuple[str, bytes, dict[str, Any]]]:
-    """Name, GLB and truth of every take that is no capture."""
-    for truth in sorted(folder.glob("*.truth.json") if folder else ()):
-        name = truth.name.removesuffix(".truth.json")
-        yield name, truth.with_name(f"{name}.glb").read_bytes(), json.loads(truth.read_text())
-    for name in FIGURES if figures else ():
-        yield f"figure {name}", (sample := figure(name)).glb, sample.truth.document()
-    for seed in HELD_BACK[:held_back]:
-        yield f"seed {seed}", (sample := choreography(seed)).glb, sample.truth.document()
+def kept_back(
+    first: int, threads: int = 1, motions: int | None = None, seconds: tuple[float, float] | None = None
+) -> Iterator[Known]:
+    """Takes made up by seeds from `first` on, without end: a creature, then one of the figures, in turns.
+
+    Of each the odd seeds are skinned and the even ones of rigid parts. Where nobody says, four to seven motions, in
+    segments that last as long as each kind's do.
+    """
+    seed = first
+    while True:
+        count = motions or 4 + seed % 4
+        made = joined("creature.glb", creature(seed, count), count, seed, seconds or joining.SECONDS)
+        yield Known.of_joined(f"creature {seed}", "kept back", made, threads)
+        yield Known.of_sample(
+            f"figures {seed}", "kept back", choreography(seed, motions, seconds or choreographies.SECONDS), threads
+        )
+        seed += 1
 
 
 def truth_of(document: dict[str, Any], analysis: Analysis) -> Int[np.ndarray, "frames"]:
     """The true motion of every frame of the analysis, at its own rate."""
-    numbers = {s["label"]: i for i, s in enumerate(document["segments"])}
-    ends = np.array([segment["end"] for segment in document["segments"]])
-    times = np.arange(analysis.frames) / analysis.frame_rate * document["fps"]
-    which = np.searchsorted(ends, np.floor(times + 1e-6), side="right").clip(max=len(ends) - 1)
-    return np.asarray(np.array([numbers[segment["label"]] for segment in document["segments"]])[which])
+    rate = document["fps"]
+    stretches = [Stretch(s["label"], s["start"] / rate, s["end"] / rate) for s in document["segments"]]
+    return per_frame(stretches, analysis.frames, analysis.frame_rate)
 
 
-def _scratch(size: int) -> memoryview:
-    return memoryview(bytearray(size))
+def _analysed(name: str, data: bytes, threads: int) -> Analysis:
+    animation = read_animation({name: data}, Parameters(), Limits.none(), lambda size: memoryview(bytearray(size)))
+    return analyse(animation, threads=threads)

@@ -18,21 +18,22 @@ def test_a_creature_is_the_same_at_every_call():
 
 def test_a_joined_take_has_the_motions_asked_for():
     """Each at least once, none twice in a row, and the truth tells the motion of every frame."""
-    take, truth = joined("creature.glb", creature(6, 5), 4, seed=1)
+    take, truth, repeats = joined("creature.glb", creature(6, 5), 4, seed=1)
     assert take.frames == len(truth)
     assert len(np.unique(truth)) == 4
     assert np.count_nonzero(np.diff(truth)) == 8
+    assert len(repeats) == 9
     assert np.isfinite(take.vertices(0, take.frames)).all()
 
 
 def test_a_file_of_few_clips_gives_what_it_has():
     """Asked for more, all are performed."""
-    assert len(np.unique(joined("creature.glb", creature(6, 2), 9, seed=1)[1])) == 2
+    assert len(np.unique(joined("creature.glb", creature(6, 2), 9, seed=1).truth)) == 2
 
 
 def test_rigid_parts_stay_rigid_in_the_cross_fades():
     """No triangle strains, between motions either."""
-    take, _ = joined("creature.glb", creature(6, 3), 3, seed=2)
+    take, _, _ = joined("creature.glb", creature(6, 3), 3, seed=2)
     strain, pairs = analyse(take, Parameters()).features
     assert strain.values.shape[1] == 0
     assert pairs.values.shape[1] > 0
@@ -40,7 +41,7 @@ def test_rigid_parts_stay_rigid_in_the_cross_fades():
 
 def test_joining_is_the_same_however_it_is_drawn():
     """Frame by frame, or all at once."""
-    take, _ = joined("creature.glb", creature(3, 3), 3, seed=3)
+    take, _, _ = joined("creature.glb", creature(3, 3), 3, seed=3)
     whole = take.vertices(200, 206)
     np.testing.assert_array_equal(np.concatenate([take.vertices(i, i + 1) for i in range(200, 206)]), whole)
 
