@@ -18,6 +18,8 @@ EXAMPLES = 600
 SPEED_WEIGHT = 0.5
 BESIDE_SECONDS = 0.3
 """Of frames on each side of a cut that tell how clear its place is."""
+DISAGREEMENT = 0.5
+"""How much of its clearness a cut loses that single frames put as far from where windows saw it as they may."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +101,8 @@ def _moved(
         best = int(cost.argmin())
         moved[i] = first + best
         left, right = slice(max(best - beside, 0), best), slice(best, best + beside)
-        clearness[i] = min(_clear(before[left], after[left]), _clear(after[right], before[right]))
+        agreed = 1 - DISAGREEMENT * abs(int(moved[i]) - cut) / reach
+        clearness[i] = agreed * min(_clear(before[left], after[left]), _clear(after[right], before[right]))
     return moved, clearness
 
 

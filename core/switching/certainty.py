@@ -1,4 +1,4 @@
-"""Certainty: what dropping a cut would cost.
+"""Certainty: what dropping a cut would cost, and whether the segments beside it were seen at all.
 
 What moving it would cost is told by the refinement; their product says which cuts to look at first.
 """
@@ -6,6 +6,7 @@ What moving it would cost is told by the refinement; their product says which cu
 import numpy as np
 from jaxtyping import Float
 
+from core.switching.choice import SHORTEST_SECONDS
 from core.switching.settling import Settled, distances
 from core.switching.signal import Signal
 
@@ -16,6 +17,8 @@ def certainty(signal: Signal, settled: Settled, penalty: float) -> Float[np.ndar
     Without the cut, the dearer of the two sides to win over joins the motion of the cheaper one: the cost rises by
     the least Σ (distance to the other motion − distance to its own) of the two segments, and one change is saved.
     rise / (rise + penalty): 0.5 where a cut earns just what a change costs again, near 1 where it is beyond doubt.
+    Times the share of `SHORTEST_SECONDS` that the shorter segment beside it lasts: of a shorter one windows show no
+    more than a blur.
     """
     labels = settled.labels
     cuts = np.flatnonzero(np.diff(labels)) + 1
@@ -30,4 +33,6 @@ def certainty(signal: Signal, settled: Settled, penalty: float) -> Float[np.ndar
     left_gives_way = spent[here, motion[1:]] - own[:-1]
     right_gives_way = spent[here + 1, motion[:-1]] - own[1:]
     rise = np.maximum(np.minimum(left_gives_way, right_gives_way), 0.0)
-    return np.asarray(rise / (rise + penalty))
+    lengths = np.diff(bounds)
+    seen = np.minimum(np.minimum(lengths[:-1], lengths[1:]) / signal.steps(SHORTEST_SECONDS), 1.0)
+    return np.asarray(seen * rise / (rise + penalty))
