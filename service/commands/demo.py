@@ -31,7 +31,7 @@ def demo(context: click.Context, /, once: bool, port: int, url: str | None) -> N
     if url:
         accuracy = _demonstrate(url)
     else:
-        click.echo("Starting the service; the first start compiles what computes, which takes a minute or so.", err=True)
+        click.echo("Starting the service; the first start compiles its kernels, which takes a minute or so.", err=True)
         with local_service(port) as started:
             accuracy = _demonstrate(started)
             if not once:
