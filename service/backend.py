@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import AsyncIterator, Iterator
-from contextlib import aclosing, asynccontextmanager, contextmanager
+from contextlib import aclosing, asynccontextmanager, contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -10,6 +10,7 @@ from typing import Annotated
 
 from anyio import CancelScope, move_on_after, to_thread
 from fastapi import Depends, Request
+from redis.exceptions import RedisError
 
 from service.errors import Refusal
 from service.key_file import KeyFile
@@ -19,6 +20,7 @@ from worker import ids
 from worker.async_records import AsyncRecords
 from worker.blobs import Blobs
 from worker.jobs import Jobs
+from worker.layout import check_layout
 from worker.leftovers import clear
 from worker.records import connect
 from worker.schema import AnimationRecord, SegmentationRecord
@@ -107,10 +109,12 @@ async def opened(settings: ServiceSettings) -> AsyncIterator[Backend]:
     """The backend, until the process ends."""
     records = AsyncRecords(settings.redis_location)
     client = connect(settings.redis_location)
-    jobs = Jobs(client, settings.attempts, settings.job_seconds)
+    jobs = Jobs(client, settings.attempts, settings.job_seconds, settings.max_queued)
     try:
         blobs = Blobs.open(settings.store_location, settings.scratch_dir)
         backend = Backend(settings, records, jobs, blobs, KeyFile(settings.keys_file))
+        with suppress(RedisError):  # it need not be up yet; the workers look too
+            await to_thread.run_sync(check_layout, client)
         await to_thread.run_sync(clear, backend.spool)  # of a process that was killed; what another one writes is held
         yield backend
     finally:

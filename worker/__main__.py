@@ -18,6 +18,7 @@ from redis.exceptions import RedisError
 from worker import logs
 from worker.horses import CaesuraWorker, alive_here
 from worker.jobs import QUEUES, Jobs
+from worker.layout import LayoutTooNew, check_layout
 from worker.leftovers import clear
 from worker.pool import Pool
 from worker.records import connect
@@ -36,11 +37,15 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if options.check:
         sys.exit(0 if _alive(settings) else 1)
     logs.configure(settings.log_format)
-    run(settings, options.queues or DEFAULT_GROUPS)
+    try:
+        run(settings, options.queues or DEFAULT_GROUPS)
+    except LayoutTooNew as refused:
+        sys.exit(str(refused))
 
 
 def run(settings: WorkerSettings, groups: list[list[str]]) -> None:
     """Warm up on one thread, then fork the workers."""
+    check_layout(connect(settings.redis_location))
     _choose_cache(settings)
     # Only now is it settled where compiled code is kept. The tasks are loaded for the forks to have them.
     from worker import tasks  # noqa: F401, PLC0415

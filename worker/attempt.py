@@ -86,8 +86,8 @@ class Attempt:
         self.records.fail(self.record.id, self.record.token, problem)
 
     def again(self, problem: dict[str, Any]) -> None:
-        """Try it once more, or end it with the problem after the last attempt."""
-        self.jobs.again(self.record.id, self.record.token, problem)
+        """Try it once more after a pause, or end it with the problem after the last attempt."""
+        self.jobs.again(self.record.id, self.record.token, problem, pause=True)
 
 
 def carry_out(jobs: Jobs, identifier: str, token: str, work: Callable[[Attempt], None]) -> None:

@@ -5,7 +5,7 @@ same MULTI that queues or ends it, so an attempt that comes late finds that it i
 
     submit ── queued ── begin ── running ── finish ── done
                 │                   ├── fail ── failed          the file, or a bug
-                │                   ├── lost ── queued again, or failed after `attempts`
+                │                   ├── lost ── queued again, at once or after a pause, or failed after `attempts`
                 │                   └── hand back ── queued again, not counted
                 └── cancel ─────────┴── cancelled
 """
@@ -24,12 +24,13 @@ from rq.job import Job
 from rq.serializers import JSONSerializer
 from rq.timeouts import JobTimeoutException as TimeLimit
 
+from core.errors import CaesuraError
 from worker import ids, keys, tallies
 from worker.records import Records, connect
 from worker.schema import ExportRecord, Queue, SegmentationRecord
 from worker.settings import WorkerSettings
 
-__all__ = ["Jobs", "TimeLimit", "worker_problem"]
+__all__ = ["Jobs", "QueueFull", "TimeLimit", "worker_problem"]
 
 log = logging.getLogger(__name__)
 
@@ -39,6 +40,7 @@ EXPORT_SECONDS = 120
 SWEEP_SECONDS = 3600
 RESULT_SECONDS = 60  # how long RQ remembers what our record knows anyway
 FAILURE_SECONDS = 24 * 3600
+FIRST_PAUSE_SECONDS, PAUSE_GROWTH, LONGEST_PAUSE_SECONDS = 2.0, 4, 60.0
 
 
 def worker_problem(code: str, detail: str, **where: Any) -> dict[str, Any]:
@@ -46,21 +48,34 @@ def worker_problem(code: str, detail: str, **where: Any) -> dict[str, Any]:
     return {"kind": "worker", "code": code, "detail": detail, **where}
 
 
+def pause_seconds(attempt: int) -> float:
+    """How long to wait after attempt 1, 2, …: 2 s, 8 s, 32 s, at most a minute."""
+    return float(min(FIRST_PAUSE_SECONDS * PAUSE_GROWTH ** (attempt - 1), LONGEST_PAUSE_SECONDS))
+
+
+class QueueFull(CaesuraError):
+    """As many jobs wait as may."""
+
+    kind = "worker"
+
+
 class Jobs:
     """What can be asked of the queues. Safe to share between threads; the calls block for a few milliseconds."""
 
-    def __init__(self, client: Redis, attempts: int = 3, job_seconds: int = 3600) -> None:
+    def __init__(self, client: Redis, attempts: int = 3, job_seconds: int = 3600, max_queued: int = 0) -> None:
         self.records = Records(client)
         self.redis = client
         self._attempts = attempts
         self._seconds = job_seconds
+        self._most = max_queued
         self._queues = {name: RqQueue(name, connection=client, serializer=JSONSerializer) for name in QUEUES}
         self._missed: set[str] = set()
 
     @classmethod
     def open(cls, settings: WorkerSettings) -> "Jobs":
         """The jobs of the Redis that the settings name."""
-        return cls(connect(settings.redis_location), settings.attempts, settings.job_seconds)
+        client = connect(settings.redis_location)
+        return cls(client, settings.attempts, settings.job_seconds, settings.max_queued)
 
     # What the service asks.
 
@@ -69,12 +84,14 @@ class Jobs:
 
         The same one queued, running, done or failed because of the file is answered as it is, without a second
         job; cancelled, or failed because of this installation, it starts anew. An animation that is analysed
-        already, with the same heavy parameters, goes straight to `cut`.
+        already, with the same heavy parameters, goes straight to `cut`. Raises `QueueFull` where it would be one
+        too many.
         """
 
         def change(kept: SegmentationRecord) -> SegmentationRecord | None:
             if kept is not record and (kept.live or kept.settled):
                 return None
+            self.check_room()
             return self._attempt(kept, attempt=1)
 
         return self.records.change(record.id, change, self._enqueue, new=record) or self._kept(record)
@@ -113,6 +130,18 @@ class Jobs:
         """How many jobs wait in each queue."""
         return {name: self.redis.llen(queue.key) for name, queue in self._queues.items()}
 
+    def check_room(self) -> None:
+        """Raises `QueueFull` where as many jobs wait as may."""
+        waiting = sum(self.depths().values()) if self._most else 0
+        if waiting >= self._most > 0:
+            raise QueueFull(
+                "queue-full",
+                f"{waiting} jobs wait already, as many as this service lets wait. Nothing was queued; try again soon.",
+                limit=self._most,
+                actual=waiting,
+                setting="CAESURA_MAX_QUEUED",
+            )
+
     def submit_export(self, identifier: str, form: str) -> ExportRecord:
         """Have a file made of a result that is done, unless it is there or being made; see `Records.export`."""
         key = keys.export_key(identifier, form)
@@ -121,6 +150,7 @@ class Jobs:
             kept = self.records.export(identifier, form)
             if kept is not None and (kept.problem or {}).get("kind") != "worker":
                 return kept
+            self.check_room()
             pipe.multi()
             pipe.set(key, ExportRecord().model_dump_json(), ex=2 * EXPORT_SECONDS)  # then its job was lost
             pipe.sadd(keys.exports_key(identifier), form)
@@ -137,10 +167,13 @@ class Jobs:
             self._call("analyse", "alternatives", [identifier], ids.token(), self._seconds, pipe)
             pipe.execute()
 
-    def again(self, identifier: str, token: str, problem: dict[str, Any]) -> SegmentationRecord | None:
+    def again(
+        self, identifier: str, token: str, problem: dict[str, Any], pause: bool = False
+    ) -> SegmentationRecord | None:
         """The attempt was lost to the infrastructure: try once more, or fail with `problem` after the last attempt.
 
-        None where the attempt is no longer the current one: then nothing is changed.
+        With a pause, which grows from attempt to attempt, where what failed needs time to come back. None where the
+        attempt is no longer the current one: then nothing is changed.
         """
 
         def change(record: SegmentationRecord) -> SegmentationRecord | None:
@@ -148,7 +181,8 @@ class Jobs:
                 return None
             if record.attempt >= self._attempts:
                 return record.with_(status="failed", problem=problem)
-            return self._attempt(record, attempt=record.attempt + 1)
+            fresh = self._attempt(record, attempt=record.attempt + 1)
+            return fresh.with_(due=time.time() + pause_seconds(record.attempt)) if pause else fresh
 
         def also(pipe: Pipeline, after: SegmentationRecord) -> None:
             self._enqueue(pipe, after)
@@ -176,10 +210,15 @@ class Jobs:
         Running without a lease, or queued without a place in a queue, at two calls in a row: one alone may be
         a clock that jumped, or a job on its way from the queue to its worker. Call every few seconds; any number
         of processes may. At the start of an embedded server no worker can be alive: then one call settles all.
+        Those whose pause is over get their place in the queue.
         """
-        missing = {record.token: record for record in self.records.live() if not self._attended(record)}
+        live = self.records.live()
+        for paused in (record for record in live if record.due):
+            self._resume(paused, at_once=everything_started_is_lost)
+        live = [record for record in live if not record.due]
+        missing = {record.token: record for record in live if not self._attended(record)}
         if everything_started_is_lost:
-            missing = {r.token: r for r in self.records.live() if r.status == "running" or not self._attended(r)}
+            missing = {r.token: r for r in live if r.status == "running" or not self._attended(r)}
         lost = set(missing) if everything_started_is_lost else set(missing) & self._missed
         self._missed = set(missing) - lost
         problem = worker_problem("worker-lost", "The worker was lost while it worked on this. Please try again.")
@@ -191,6 +230,17 @@ class Jobs:
             with self.redis.pipeline() as pipe:
                 self._call("cut", "sweep", [], ids.token(), SWEEP_SECONDS, pipe)
                 pipe.execute()
+
+    def _resume(self, paused: SegmentationRecord, at_once: bool) -> None:
+        """Queue it where its pause is over. One longer than any pause is a clock that jumped: that is over too."""
+        left = paused.due - time.time()
+        if at_once or left <= 0 or left > LONGEST_PAUSE_SECONDS:
+
+            def change(record: SegmentationRecord) -> SegmentationRecord | None:
+                same = record.token == paused.token and record.status == "queued" and record.due
+                return record.with_(due=0.0) if same else None
+
+            self.records.change(paused.id, change, self._enqueue)
 
     def _attended(self, record: SegmentationRecord) -> bool:
         if record.status == "running":
@@ -204,11 +254,11 @@ class Jobs:
         if queue is None:
             digest = ids.heavy_digest(record.chosen().heavy(), record.algorithm)
             queue = "analyse" if self.records.analysis(record.animation, digest) is None else "cut"
-        fresh = {"stage": "", "fraction": 0.0, "problem": None, "attempt": attempt, "queue": queue}
+        fresh = {"stage": "", "fraction": 0.0, "problem": None, "attempt": attempt, "queue": queue, "due": 0.0}
         return record.with_(status="queued", token=ids.token(), **fresh)
 
     def _enqueue(self, pipe: Pipeline, record: SegmentationRecord) -> None:
-        if record.status == "queued":
+        if record.status == "queued" and not record.due:
             self._call(record.queue, record.queue, [record.id, record.token], record.token, self._seconds, pipe)
             pipe.zadd(keys.USED_KEY, {record.animation: time.time()}, xx=True)
 

@@ -3,6 +3,7 @@
 | key | type | value |
 |---|---|---|
 | caesura:secret | string | key of all ids |
+| caesura:layout | string | version of what is stored; `worker.layout` |
 | caesura:animation:ID | string | AnimationRecord, JSON |
 | caesura:animations:OWNER | sorted set | ids of animations by time of creation |
 | caesura:used | sorted set | ids of all animations by the time of their last use |
@@ -36,6 +37,7 @@ from typing import Literal
 LIVE_KEY = "caesura:live"
 USED_KEY = "caesura:used"
 SWEPT_KEY = "caesura:swept"
+LAYOUT_KEY = "caesura:layout"
 TALLY_KEY = "caesura:tally"
 DOUBTED_KEY = "caesura:doubted"
 STORE_KEY = "caesura:store"

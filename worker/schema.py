@@ -97,6 +97,7 @@ class SegmentationRecord(_Record):
     queued -> running -> done | failed | cancelled. `token` names the current attempt: whoever holds another
     can no longer write. `problem` is what `CaesuraError.problem()` gave, or one of kind `worker`, which is not
     the file's fault: posting the same again then starts anew. `parameters` are complete, defaults filled in.
+    Queued with a time `due`, in seconds since 1970, it gets its place in a queue then: it is tried again after a pause.
     `request` is the id of the request that asked for it first.
     `segments` are the computed ones; `revision` is the number of the newest revision of them, 0 without any.
     """
@@ -114,6 +115,7 @@ class SegmentationRecord(_Record):
     fraction: float = 0.0
     attempt: int = 0
     token: str = ""
+    due: float = 0.0
     problem: dict[str, Any] | None = None
     created: float
     updated: float

@@ -34,6 +34,7 @@ class WorkerSettings(Limits, BaseSettings):
     threads: int = Field(0, ge=0, description="threads of one job; 0: what affinity and cgroup quota give")
     job_seconds: int = Field(3600, gt=0, description="seconds one job may take")
     job_memory_bytes: int = Field(2 * 2**30, gt=0, description="bytes one job may use beside its mapped files")
+    max_queued: int = Field(10_000, ge=0, description="jobs that may wait; more are refused. 0: any number")
     attempts: int = Field(3, ge=1, description="attempts of a job whose worker is lost")
     stop_seconds: float = Field(5.0, ge=0, description="seconds a running job gets to end before it is handed back")
     keep_upload_days: float = Field(7.0, gt=0, description="days an upload and its analyses stay after their last use")

@@ -5,10 +5,12 @@ import signal
 import time
 from pathlib import Path
 
+import pytest
+
 from tests.installation import descendants
 from worker import keys
 from worker.horse import WORKING
-from worker.jobs import QUEUES, worker_problem
+from worker.jobs import QUEUES, Jobs, QueueFull, pause_seconds, worker_problem
 from worker.records import LEASE_SECONDS
 
 LOST = worker_problem("worker-lost", "Lost.")
@@ -90,6 +92,50 @@ def test_a_job_that_fell_out_of_its_queue_is_queued_again(idle, take):
     idle.redis.delete("rq:queue:analyse")
     assert [idle.jobs.reconcile(), idle.jobs.reconcile()] == [0, 1]
     assert idle.jobs.position(idle.records.segmentation(record.id)) == 0
+
+
+def test_after_a_fault_of_the_infrastructure_it_pauses(idle, take):
+    """It is queued but has no place in the queue, nobody takes it for lost, and when its pause is over it gets one."""
+    record = idle.submit(idle.upload(take))
+    idle.records.begin(record.id, record.token)
+    idle.redis.delete("rq:queue:analyse")  # its worker had taken it from there
+    paused = idle.jobs.again(record.id, record.token, LOST, pause=True)
+    assert (paused.status, paused.attempt, idle.jobs.position(paused)) == ("queued", 2, None)
+    assert 0 < paused.due - time.time() <= pause_seconds(1)
+    assert [idle.jobs.reconcile(), idle.jobs.reconcile()] == [0, 0]
+    assert idle.jobs.position(paused) is None
+    idle.records.change(record.id, lambda r: r.with_(due=time.time() - 1))
+    assert idle.jobs.reconcile() == 0
+    resumed = idle.records.segmentation(record.id)
+    assert (resumed.attempt, resumed.token, resumed.due) == (2, paused.token, 0)
+    assert idle.jobs.position(resumed) == 0
+
+
+def test_a_pause_does_not_outlast_a_clock_that_was_put_back(idle, take):
+    """What is due in an hour was not set by this clock."""
+    record = idle.submit(idle.upload(take))
+    paused = idle.jobs.again(record.id, record.token, LOST, pause=True)
+    idle.records.change(record.id, lambda r: r.with_(due=time.time() + 3600))
+    idle.jobs.reconcile()
+    assert idle.records.segmentation(paused.id).due == 0
+
+
+def test_pauses_grow_and_are_bounded():
+    """Two seconds, eight, half a minute, never more than a minute."""
+    assert [pause_seconds(attempt) for attempt in (1, 2, 3, 4, 9)] == [2, 8, 32, 60, 60]
+
+
+def test_a_full_queue_takes_nothing_new(idle, take):
+    """And says how many wait, and what to set; what waits already is answered as it is."""
+    jobs = Jobs(idle.redis, max_queued=2)
+    waiting = [jobs.submit(idle.wanted(idle.upload(take))) for _ in range(2)]
+    with pytest.raises(QueueFull) as refused:
+        jobs.submit(idle.wanted(idle.upload(take)))
+    told = refused.value.problem()
+    assert (told["code"], told["limit"], told["actual"], told["setting"]) == ("queue-full", 2, 2, "CAESURA_MAX_QUEUED")
+    assert jobs.submit(waiting[0]) == waiting[0]
+    jobs.cancel(waiting[0].id)
+    assert jobs.submit(idle.wanted(idle.upload(take))).status == "queued"
 
 
 def test_a_deleted_segmentation_leaves_nothing(idle, take):
