@@ -4,12 +4,15 @@ from core.errors import ParameterError
 
 SHOWN = 20
 
+LONGEST = 1_000
+"""Letters of a take's name; a name may be as long as its file, and is kept and sent with every answer."""
+
 
 def take_name(given: object, place: int) -> str:
     """The name of a take; a take without one is called by its place."""
     if isinstance(given, str) and given:
         # A lone surrogate is legal in JSON and cannot be written as UTF-8.
-        return given.encode("utf-8", "replace").decode("utf-8")
+        return given[:LONGEST].encode("utf-8", "replace").decode("utf-8")
     return f"take {place}"
 
 
@@ -24,7 +27,7 @@ def choose_take(names: list[str], wanted: str | int) -> int | None:
         if 0 <= wanted < len(names):
             return wanted
         raise ParameterError("unknown-take", f"There is no take {wanted}. {_listed(names)}", parameter="take")
-    places = [place for place, name in enumerate(names) if name == wanted]
+    places = [place for place, name in enumerate(names) if name == wanted[:LONGEST]]
     if not places:
         raise ParameterError("unknown-take", f"There is no take {wanted[:80]!r}. {_listed(names)}", parameter="take")
     if len(places) > 1:

@@ -16,6 +16,9 @@ from core.formats.gltf.nodes import NodeGraph
 from core.formats.gltf.primitives import Outline, Primitive, outlines, read_primitive
 from core.formats.gltf.skins import IDENTITY, Skin, read_skin
 
+BONE_BYTES = 32 * 12 * 8
+"""Bytes of one bone's matrices in a block of frames: skins may share nodes, so that bones are more than nodes."""
+
 
 @dataclass(frozen=True)
 class Part:
@@ -192,6 +195,7 @@ class _Body:
         self._weights.append(influences.weights[used])
 
     def _new_bones(self, nodes: Int[np.ndarray, "_"], bind: Float[np.ndarray, "_ 12"]) -> int:
+        self._document.budget.spend(len(nodes) * BONE_BYTES)
         start, self._bones = self._bones, self._bones + len(nodes)
         self._bone_nodes.append(nodes)
         self._binds.append(bind)

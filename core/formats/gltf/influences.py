@@ -9,6 +9,9 @@ from core.formats.gltf.accessors import Accessors, Layout
 from core.formats.gltf.document import Document
 from core.formats.gltf.entry import Entry
 
+LARGEST = 1e30
+"""Weights beyond this are broken numbers, and not ones that someone forgot to normalise."""
+
 
 @dataclass(frozen=True)
 class Influences:
@@ -49,6 +52,8 @@ def _normalised(
     document: Document, primitive: Entry, weights: Float[np.ndarray, "V influences"]
 ) -> Float[np.ndarray, "V influences"]:
     """Weights of sum 1: negative ones count as 0, and where none is left the first joint has all."""
+    if (np.abs(weights) > LARGEST).any():
+        raise primitive.refusal("A skin weight is no share of anything.", "non-finite-data", "attributes")
     if (weights < 0).any():
         document.notices.add("weights-negative", f"{primitive.pointer} has negative skin weights; they count as 0.")
         weights = np.maximum(weights, 0)

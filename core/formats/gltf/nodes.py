@@ -131,7 +131,7 @@ def _read_pose(entry: Entry, pose: Float[np.ndarray, "10"]) -> None:
     pose[T] = entry.numbers("translation", 3, STILL[T])
     pose[R] = entry.numbers("rotation", 4, STILL[R])
     pose[S] = entry.numbers("scale", 3, STILL[S])
-    if not np.any(pose[R]):
+    if not pose[R] @ pose[R] > 0:  # or so small that it has no direction
         raise entry.refusal("The rotation is zero, which is no rotation.", name="rotation")
 
 

@@ -27,6 +27,7 @@ def read_gltf(data: memoryview, parts: Mapping[str, memoryview], parameters: Par
     """The animation of a glTF or GLB; `parts` are files sent beside it, found by their exact names."""
     document = Document(data, parts, limits)
     accessors = Accessors(document)
+    _ = document.skins  # a list of objects, used or not
     graph = read_nodes(document)
     nodes = scene_nodes(document, graph)
     chosen = chosen_takes(document, accessors, parameters.take)
@@ -40,7 +41,7 @@ def read_gltf(data: memoryview, parts: Mapping[str, memoryview], parameters: Par
     def pose(take: Tracks, start: float) -> PosedVertices:
         return PosedVertices(figure, skeleton, take, weight_slots, rate, start)
 
-    size = Size(len(figure.triangles), len(skeleton.parent))
+    size = Size(len(figure.triangles), len(skeleton.parent) + len(skeleton.bone_node))
     if len(chosen) == 1:
         course = one_take(chosen[0], tracks[0], pose, rate, size, parameters, limits)
     else:

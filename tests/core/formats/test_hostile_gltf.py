@@ -212,6 +212,7 @@ GRAPH: list[Row] = [
         "non-finite-data",
         "/nodes/0/translation",
     ),
+    ("a quaternion whose square is zero", _node(0, rotation=[0, 0, 0, 1e-200]), "invalid-gltf", "/nodes/0/rotation"),
     ("zero quaternion", _node(0, rotation=[0, 0, 0, 0]), "invalid-gltf", "/nodes/0/rotation"),
 ]
 
@@ -224,6 +225,8 @@ SKINS: list[Row] = [
     ("too few bind matrices", _accessor(BIND, count=1), "invalid-skin", "/skins/0/inverseBindMatrices"),
     ("NaN in a bind matrix", _data(BIND, 3, np.nan), "non-finite-data", "/accessors/5"),
     ("NaN weight", _data(WEIGHTS, 0, np.nan), "non-finite-data", "/accessors/2"),
+    ("weight 1e38", _data(WEIGHTS, 0, 1e38), "non-finite-data", "/meshes/0/primitives/0/attributes"),
+    ("skins is null", _set("skins", None), "invalid-gltf", "/skins"),
     ("joints without weights", _no_weights, "invalid-gltf", None),
     ("weights as VEC3", _accessor(WEIGHTS, type="VEC3"), "invalid-gltf", None),
     ("weights of targets that are gone", _no_targets, "invalid-animation", None),
@@ -372,6 +375,14 @@ def _zeros(accessor: int, count: int) -> Mutation:
     return mutate
 
 
+def _many_bones(model: Glb) -> None:
+    """A hundred meshes on skins of the same 5,000 nodes."""
+    first = len(model.json["nodes"])
+    model.json["nodes"] += [{}] * 5_000 + [{"mesh": 0, "skin": number} for number in range(1, 101)]
+    model.json["skins"] += [{"joints": [*range(first, first + 5_000)]}] * 100
+    model.json["scenes"][0]["nodes"] += range(first + 5_000, first + 5_100)
+
+
 def _many_nodes_for_hours(model: Glb) -> None:
     """A chain that moves one square, whose last key is after three hours."""
     model.json["nodes"] += [{"children": [i]} for i in range(49_000)]
@@ -413,6 +424,21 @@ def test_a_file_that_unfolds_too_far_is_refused_by_its_limit(mutate: Mutation, l
     with pytest.raises(LimitExceeded, match=setting) as refused:
         opened(model.glb(), limits)
     assert refused.value.where.keys() >= {"limit", "actual", "setting"}
+
+
+def test_skins_that_share_nodes_are_counted_by_their_bones() -> None:
+    """Half a million matrices in every frame, of 5,000 nodes and six vertices."""
+    model = bending_strip()
+    _many_bones(model)
+    with pytest.raises(LimitExceeded, match="CAESURA_MAX_DECODED_BYTES"):
+        opened(model.glb())
+
+
+def test_a_name_as_long_as_a_file_is_cut() -> None:
+    """It would be kept and sent with every answer; by its beginning, or all of it, the take is found."""
+    model = moving_square()
+    model.json["animations"] = [{**model.json["animations"][0], "name": name} for name in ("N" * 10**6, "other")]
+    assert opened(model.glb(), take="N" * 10**6).take.name == "N" * 1000
 
 
 def test_numbers_that_overflow_are_found_when_they_are_drawn() -> None:
