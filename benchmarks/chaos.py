@@ -31,7 +31,7 @@ CLIENTS = 8
 LONGEST_SECONDS = 900.0
 BETWEEN_SECONDS = (0.3, 2.5)
 MOST_KILLS = 80
-WEIGHTS = {"work-horse": 10, "worker": 4, "web": 4, "Redis": 3, "pool": 1, "supervisor": 1}
+WEIGHTS = {"work-horse": 10, "worker": 4, "web": 4, "Redis": 3, "pool": 2, "supervisor": 2}
 
 
 def main() -> None:
