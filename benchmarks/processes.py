@@ -53,8 +53,8 @@ class Watch:
             for pid in descendants(self.root):
                 resident = _resident_peak(pid)
                 if resident:
-                    role = _role(pid)
-                    self.peaks[role] = max(self.peaks.get(role, 0), resident)
+                    name = role(pid)
+                    self.peaks[name] = max(self.peaks.get(name, 0), resident)
 
 
 def descendants(root: int) -> list[int]:
@@ -103,9 +103,10 @@ def _resident_peak(pid: int) -> int:
     return next((int(line.split()[1]) * 1024 for line in status.splitlines() if line.startswith("VmHWM")), 0)
 
 
-def _role(pid: int) -> str:
+def role(pid: int) -> str:
+    """What a process does for the service, by its command line."""
     try:
         command = (PROC / str(pid) / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
     except OSError:
         return "worker"
-    return next((role for part, role in ROLES if part in command), "worker")
+    return next((name for part, name in ROLES if part in command), "worker")

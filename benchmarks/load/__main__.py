@@ -2,6 +2,7 @@
 
     python -m benchmarks.load             # minutes; writes docs/performance.md
     python -m benchmarks.load --quick     # under a minute; printed only
+    python -m benchmarks.load --takes 1000 --large 20    # a crowd instead; writes docs/operations.md
 
 Each starts a service of its own: web process, workers and the embedded Redis-compatible server. Ends with status 1
 where a promise is missed.
@@ -15,6 +16,7 @@ from redis import Redis
 
 from benchmarks.load.busy import busy
 from benchmarks.load.calls import Calls
+from benchmarks.load.crowd import crowd
 from benchmarks.load.measure import Measure, table
 from benchmarks.load.overhead import overhead
 from benchmarks.load.rates import rates
@@ -29,12 +31,20 @@ def main() -> None:
     """Measure, print, write, and say by the status whether every promise is kept."""
     options = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     options.add_argument("--quick", action="store_true", help="smaller and fewer; writes nothing")
-    quick = options.parse_args().quick
-    measures = measured(quick)
+    options.add_argument("--takes", type=int, default=0, help="so many takes of ten seconds, posted at once")
+    options.add_argument("--large", type=int, default=0, help="and so many of five minutes among them")
+    chosen = options.parse_args()
+    if chosen.takes or chosen.large:
+        page, section = "operations.md", "crowd"
+        with service() as running:
+            measures = crowd(running, chosen.takes, chosen.large)
+    else:
+        page, section = "performance.md", "load"
+        measures = measured(chosen.quick)
     text = table(measures)
     print(text)
-    if not quick:
-        write_section(DOCS / "performance.md", "load", text)
+    if not chosen.quick:
+        write_section(DOCS / page, section, text)
     sys.exit(0 if all(one.kept for one in measures) else 1)
 
 

@@ -39,6 +39,10 @@ class Calls:
         """How far it is."""
         return self._status("GET", f"/v1/segmentations/{identifier}")
 
+    def ended(self, identifier: str) -> dict[str, Any]:
+        """Its status once it has ended."""
+        return self._waited(self.status(identifier), wait=True)
+
     def delete(self, identifier: str) -> None:
         """Cancel or delete a segmentation."""
         self.http.delete(f"/v1/segmentations/{identifier}")
