@@ -108,7 +108,8 @@ def main() -> None:
     if not given.print:
         choices = ("--figures " if given.figures else "") + f"--held-back {given.held_back}"
         folders = ("TAKES " if given.folder else "") + ("--cmu CMU " if given.cmu else "")
-        command = f"python -m benchmarks.accuracy {folders}{choices} --seeds {given.seeds}"
+        some = "" if given.methods == ",".join(METHODS) else f" --methods {given.methods}"
+        command = f"python -m benchmarks.accuracy {folders}{choices} --seeds {given.seeds}{some}"
         write_section(ACCURACY, "accuracy", section(found, missing, command))
         told = [(row.known.name, row.method, row.known.truth, row.labels) for row in found if row.told != "auto"]
         ACCURACY.with_suffix(".svg").write_text(bars(told))
