@@ -7,17 +7,14 @@ from jaxtyping import Float32, Int
 
 from core.animation import Animation
 from core.blocks import Block
-from core.descriptors.kernels import largest_bits
+from core.descriptors.kernels import REACH, largest_bits
 from core.errors import InvalidModel
-
-REACH = np.float32(1e15)
-"""The largest coordinate that is read: the squares of larger ones leave float32."""
 
 
 def draw(animation: Animation, block: Block, checked: bool = False) -> Float32[np.ndarray, "frames V 3"]:
     """Frames [start, stop). Raises `InvalidModel` with frame and vertex of a NaN, an infinity or what is above 1e15.
 
-    What was `checked` when it was drawn before is not looked at again: it is the same bytes.
+    Nothing is looked at where it is `checked` elsewhere: when it was drawn before, or by what reads it next.
     """
     vertices = np.ascontiguousarray(animation.vertices(*block), dtype=np.float32)
     if not checked and not largest_coordinate(vertices) <= REACH:  # NaN is not either

@@ -66,9 +66,7 @@ def pairings(blocks: Iterable[UInt8[np.ndarray, "columns _"]], lag: int, levels:
             yield Pairing(tuple(pieces), levels)
 
 
-def sliding_sums(
-    counts: Iterable[Int[np.ndarray, "_ levels2"]], length: int
-) -> Iterator[Int[np.ndarray, "_ levels2"]]:
+def sliding_sums(counts: Iterable[Int[np.ndarray, "_ levels2"]], length: int) -> Iterator[Int[np.ndarray, "_ levels2"]]:
     """C_{m−l+1} + … + C_m for every m ≥ l − 1, in as many pieces as come; O(1) a frame whatever the length."""
     before: np.ndarray | None = None
     for piece in counts:

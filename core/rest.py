@@ -6,7 +6,8 @@ import numpy as np
 from jaxtyping import Float32, Float64
 
 from core.animation import Animation
-from core.drawing import REACH, draw, draw_frames
+from core.descriptors.kernels import REACH
+from core.drawing import draw, draw_frames
 from core.errors import InvalidModel, ParameterError
 
 MEAN_FRAMES = 200

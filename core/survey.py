@@ -14,7 +14,7 @@ from core.blocks import Block, blocks_of, frames_per_block, map_blocks
 from core.body import Body
 from core.buffers import Buffers
 from core.codes import CODES, Coding
-from core.descriptors.strain import ROUNDING
+from core.descriptors.strain import ROUNDING, TriangleStrain, UnreadableError
 from core.drawing import draw
 from core.glance import Glance
 from core.progress import Progress, ignore
@@ -58,23 +58,30 @@ class Surveyor:
 
     def measure(self, block: Block) -> Page:
         """Draw the block, and read every tile of its strain while it is in the cache."""
-        vertices = draw(self.animation, block)
+        vertices = draw(self.animation, block, checked=self._checks)
         means, histogram = self.body.patches.empty(len(vertices)), self.histograms.take()
         largest, above = 0.0, 0
-        kept = self.place(block) if self.keeps(block) else None
-        for columns, tile in self.body.surface.tiles(vertices):
-            if self.body.patches.patches:
-                self.body.patches.add(columns, tile, means)
-            codes = np.empty((0, len(vertices)), np.uint16) if kept is None else kept[columns]
-            most, more = self.coding.read(tile, self.noise[columns], self.floor, codes, histogram)
-            largest, above = max(largest, most), above + more
+        kept = self.place(block) if self.keeps(block) else np.empty((0, len(vertices)), np.uint16)
+        try:
+            for columns, tile in self.body.surface.tiles(vertices):
+                if self.body.patches.patches:
+                    self.body.patches.add(columns, tile, means)
+                most, more = self.coding.read(tile, self.noise[columns], self.floor, kept[columns], histogram)
+                largest, above = max(largest, most), above + more
+        except UnreadableError:
+            draw(self.animation, block)  # says where
+            raise
         self.histograms.give(histogram)
         apart = self.body.pairs.measure(vertices)
         described = (means.T, apart)
         if self.projections is not None:
             described = (self.projections[0].project(means.T), self.projections[1].project(apart))
-        widest = float(np.abs(apart).max(initial=0))
-        return Page(largest, above, widest, described)
+        return Page(largest, above, float(np.abs(apart).max(initial=0)), described)
+
+    @property
+    def _checks(self) -> bool:
+        """Whether measuring looks at every coordinate: a pass less over the vertices."""
+        return isinstance(self.body.surface, TriangleStrain) and self.body.surface.covers
 
     def codes(self, block: Block, buffers: Buffers) -> UInt16[np.ndarray, "columns frames"]:
         """The codes of the block: as kept, or from the vertices, drawn again."""

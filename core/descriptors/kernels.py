@@ -15,6 +15,9 @@ FAST = {"contract", "reassoc", "nsz", "arcp", "afn"}  # not nnan, ninf: they del
 
 LOG, BIOT, MAX = 0, 1, 2
 
+REACH = np.float32(1e15)
+"""The largest coordinate that is read: the squares of larger ones leave float32."""
+
 SQUARED_FLOOR = np.float32(1e-6)
 """Least squared stretch: a triangle squeezed below a thousandth counts as a thousandth, so ln stays finite."""
 

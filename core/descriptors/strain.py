@@ -28,6 +28,10 @@ ROUNDING = 2.0**-20
 """Relative error of the edges of a triangle whose corners were rounded to float32, with room for how they were made."""
 
 
+class UnreadableError(ValueError):
+    """A block of vertices has a coordinate that is not a number, or beyond `kernels.REACH`."""
+
+
 @dataclass(frozen=True)
 class Tile:
     """Neighbouring triangles with vertices of their own: `members` in the mesh, `corners` among the members.
@@ -45,7 +49,8 @@ class TriangleStrain:
     """Strain of the triangles of a mesh that have area at rest, in the order `triangles`, of which there are `columns`.
 
     `areas` (columns,) are the areas at rest; `thinness` (columns,) is 1 / c, so that corners rounded by δ are
-    strained by about δ · thinness; `left_out` counts the triangles without area at rest.
+    strained by about δ · thinness; `left_out` counts the triangles without area at rest; it `covers` the mesh where
+    every vertex is a corner of one that has.
     """
 
     columns: int
@@ -56,6 +61,7 @@ class TriangleStrain:
     measure: int
     scale_invariant: bool
     parts: tuple[Tile, ...]
+    covers: bool
 
     @classmethod
     def of(
@@ -82,29 +88,36 @@ class TriangleStrain:
         shapes = np.stack([1 / a, 1 / c, along / a / a / c], axis=1).astype(np.float32)
         parts = tuple(_tile(corners[i : i + TILE], shapes[i : i + TILE]) for i in range(0, len(corners), TILE))
         left_out = len(triangles) - len(corners)
-        return cls(len(corners), left_out, order[kept], doubled / 2, 1 / c, MEASURES[measure], scale_invariant, parts)
+        areas, covers = doubled / 2, len(np.unique(corners)) == len(rest)
+        return cls(len(corners), left_out, order[kept], areas, 1 / c, MEASURES[measure], scale_invariant, parts, covers)
 
     def tiles(
         self, block: Float32[np.ndarray, "frames V 3"]
     ) -> Iterator[tuple[slice, Float32[np.ndarray, "n frames"]]]:
         """Columns, and their strain in every frame of the block; no unit, from 0. Each array lives until the next.
 
-        Finite for vertices below `kernels.REACH`: a stretch below a thousandth counts as a thousandth.
+        A stretch below a thousandth counts as a thousandth. Raises `UnreadableError` where a corner is not a number
+        or beyond `kernels.REACH`, for so much is known once the vertices are at hand.
         """
         frames = len(block)
-        whole, scale = _in_widths(block), _in_widths(self._scale(block))
+        scale = _to_width(self._scale(block))
         rows = self._buffers.empty((self._most_members, 3, WIDTH), np.float32)
         tile = self._buffers.empty((TILE, WIDTH), np.float32)
         scratch = self._buffers.empty((3 * WIDTH,), np.float32)
         for number, part in enumerate(self.parts):
             out = tile[: len(part.corners)]
             pieces = []
-            for start in range(0, len(whole), WIDTH):
-                gather(whole[start : start + WIDTH], part.members, rows)
-                lines, factors = rows.reshape(-1, 3 * WIDTH), scale[start : start + WIDTH]
+            for start in range(0, frames, WIDTH):
+                width = min(frames - start, WIDTH)
+                own = rows[: len(part.members)]
+                gather(block[start : start + width], part.members, own)
+                own[:, :, width:] = own[:, :, width - 1 : width]  # frames that are not there repeat the last
+                if not _readable(own):
+                    raise UnreadableError("a coordinate is no number, or too large for one")
+                lines, factors = own.reshape(-1, 3 * WIDTH), scale[start : start + WIDTH]
                 kernels.strain_tile(lines, part.corners, part.shapes, factors, self.measure, scratch, out)
                 if frames != WIDTH:
-                    pieces.append(out[:, : frames - start].copy())
+                    pieces.append(out[:, :width].copy())
             yield slice(number * TILE, number * TILE + len(out)), np.concatenate(pieces, axis=1) if pieces else out
 
     def thinned(self, most: int) -> "TriangleStrain":
@@ -136,10 +149,15 @@ class TriangleStrain:
         return np.asarray(np.minimum(2 * self.areas.sum() / np.maximum(twice, smallest), 1e12), np.float32)
 
 
-def _in_widths(values: Float32[np.ndarray, "frames *rest"]) -> Float32[np.ndarray, "whole *rest"]:
-    """The frames with the last one repeated up to a multiple of `WIDTH`; themselves where they are one already."""
-    missing = -len(values) % WIDTH
-    return np.concatenate([values, np.repeat(values[-1:], missing, axis=0)]) if missing else values
+def _to_width(values: Float32[np.ndarray, "frames"]) -> Float32[np.ndarray, "whole"]:
+    """The values with the last one repeated up to a multiple of `WIDTH`."""
+    return np.pad(values, (0, -len(values) % WIDTH), mode="edge")
+
+
+def _readable(rows: Float32[np.ndarray, "v 3 width"]) -> bool:
+    """Whether every coordinate is a number within reach; NaN is not."""
+    largest = kernels.largest_bits(rows.reshape(-1).view(np.int32))
+    return bool(np.int32(largest).view(np.float32) <= kernels.REACH)
 
 
 def _longest_edge_first(rest: Float[np.ndarray, "V 3"], triangles: Int[np.ndarray, "T 3"]) -> Int[np.ndarray, "T 3"]:
