@@ -23,12 +23,12 @@ class Tube:
     vertices: Float32[np.ndarray, "distinct V 3"]
 
     @classmethod
-    def of(cls, frames: int, triangles: int) -> "Tube":
+    def of(cls, frames: int, triangles: int, distinct_bytes: int = DISTINCT_BYTES) -> "Tube":
         """About so many triangles, ring by ring along the tube: coherent order."""
         around = max(int(np.sqrt(triangles / 8)), 8)
         rings = triangles // 2 // around + 1
         rest, faces = _rest(around, rings)
-        distinct = min(frames, max(DISTINCT_BYTES // (12 * len(rest)) // 64 * 64, 64))
+        distinct = min(frames, max(distinct_bytes // (12 * len(rest)) // 64 * 64, 64))
         vertices = np.empty((distinct, *rest.shape), np.float32)  # filled in place: no freed memory is left to reuse
         for frame in range(distinct):
             vertices[frame] = _bent(rest, frame)
