@@ -4,8 +4,7 @@ import json
 import subprocess
 import sys
 
-import pytest
-
+from service.commands.outputs import FORMS
 from tests.installation import take_npz
 
 MISSING_MODULES = ("fcntl", "resource", "pwd", "grp", "termios", "pty", "syslog")
@@ -50,13 +49,14 @@ import fcntl
     assert "fcntl" in ended.stderr.splitlines()[-1]
 
 
-@pytest.mark.parametrize("arguments", [["--json"], ["--out", "out", "--clips", "--csv"]], ids=["printed", "written"])
-def test_files_are_segmented(tmp_path, monkeypatch, arguments):
-    """`caesura segment`, by a pattern, with everything that it can write."""
+def test_files_are_segmented(tmp_path, monkeypatch):
+    """`caesura segment`, by a pattern, printed and written in every form."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "take.npz").write_bytes(take_npz())
-    command = ["segment", "*.npz", "--motions", "2", *arguments]
+    forms = [f"--{form.replace('_', '-')}" for form in FORMS]
+    command = ["segment", "*.npz", "--motions", "2", "--json", "--out", "out", *forms]
     ended = run("from service.cli import main\nmain(sys.argv[1:])", *command)
     assert ended.returncode == 0, ended.stderr
-    document = ended.stdout if "--json" in arguments else (tmp_path / "out" / "take.json").read_text()
-    assert json.loads(document)["motions"] == 2
+    assert json.loads(ended.stdout)["motions"] == 2
+    assert json.loads((tmp_path / "out" / "take.json").read_text())["motions"] == 2
+    assert len(list((tmp_path / "out").iterdir())) == len(FORMS) + 1
