@@ -5,6 +5,7 @@ The computed result stays as it is; a revision is a layer over it. Light: no Num
 
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
+from unicodedata import normalize
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -135,14 +136,14 @@ def _names(edits: Sequence[Edit]) -> dict[int, str]:
 
 def _check_name(name: str, number: int) -> None:
     """A name that can be shown, typed and put into any file: a line of text that no spreadsheet takes for a formula."""
-    if not name or name != name.strip():
+    if not name.strip(JOINERS) or name != name.strip():
         _refuse(f"The name of segment {number} is empty, or begins or ends with a space.", number, "name")
     if len(name) > LONGEST_NAME:
         _refuse(f"The name of segment {number} is longer than {LONGEST_NAME} letters.", number, "name")
     odd = next((letter for letter in name if not letter.isprintable() and letter not in JOINERS), None)
     if odd is not None:
         _refuse(f"The name of segment {number} holds U+{ord(odd):04X}, which does not print.", number, "name")
-    if name[0] in "=+-@":
+    if normalize("NFKC", name[0])[0] in "=+-@":
         _refuse(
             f"The name of segment {number} begins with {name[0]}: spreadsheets take that for a formula.", number, "name"
         )

@@ -6,6 +6,7 @@ A form is a name, and after a question mark the revision and the options that ar
 
 import io
 import json
+import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from urllib.parse import parse_qsl
@@ -22,12 +23,16 @@ from core.revision import revised
 from worker.allowance import Allowance
 from worker.attempt import INTERNAL_ERROR
 from worker.blobs import BlobMissing, Blobs
+from worker.forgetting import forget_oldest_exports
 from worker.jobs import EXPORT_SECONDS
 from worker.mapping import mapped_parts, scratch_space
 from worker.records import Records
 from worker.revisions import edits_of
 from worker.schema import ExportRecord, SegmentationRecord
 from worker.settings import WorkerSettings
+
+MOST_EXPORTS = 16
+"""Files made of one result that are kept; choices and revisions are many, and each may ask for a copy of the upload."""
 
 GONE = {
     "kind": "request",
@@ -52,7 +57,7 @@ class Export:
 
     def keep(self, content: bytes | Iterator[bytes], media_type: str) -> ExportRecord:
         """Where the file is, from now on."""
-        return ExportRecord(key=self.blobs.put(content, "exports"), media_type=media_type)
+        return ExportRecord(key=self.blobs.put(content, "exports"), media_type=media_type, created=time.time())
 
 
 def npz(export: Export, _: Options) -> ExportRecord:
@@ -130,3 +135,4 @@ def run(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: st
         raise
     if not records.write_export(identifier, form, made) and made.key is not None:
         blobs.delete(made.key)
+    forget_oldest_exports(records, blobs, identifier, MOST_EXPORTS)

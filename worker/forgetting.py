@@ -3,6 +3,7 @@
 from worker import keys
 from worker.blobs import Blobs
 from worker.jobs import Jobs
+from worker.records import Records
 from worker.schema import AnimationRecord
 
 OF_UPLOAD = ("clips", "keyframes")
@@ -29,7 +30,7 @@ def forget_files(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
     for segmentation in jobs.records.segmentations(animation.id):
         for form in jobs.records.exports(segmentation.id):
             if form.partition("?")[0] in OF_UPLOAD:
-                _forget_export(jobs, blobs, segmentation.id, form)
+                forget_export(jobs.records, blobs, segmentation.id, form)
     for digest, analysis in jobs.records.analyses(animation.id).items():
         for key in analysis.blobs():
             blobs.delete(key)
@@ -40,12 +41,21 @@ def forget_files(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
 
 def _forget_exports(jobs: Jobs, blobs: Blobs, identifier: str) -> None:
     for form in jobs.records.exports(identifier):
-        _forget_export(jobs, blobs, identifier, form)
+        forget_export(jobs.records, blobs, identifier, form)
 
 
-def _forget_export(jobs: Jobs, blobs: Blobs, identifier: str, form: str) -> None:
-    made = jobs.records.export(identifier, form)
+def forget_export(records: Records, blobs: Blobs, identifier: str, form: str) -> None:
+    """Delete one file made of a result; asked for again, it is made again."""
+    made = records.export(identifier, form)
     if made is not None and made.key is not None:
         blobs.delete(made.key)
-    jobs.redis.delete(keys.export_key(identifier, form))
-    jobs.redis.srem(keys.exports_key(identifier), form)
+    records.redis.delete(keys.export_key(identifier, form))
+    records.redis.srem(keys.exports_key(identifier), form)
+
+
+def forget_oldest_exports(records: Records, blobs: Blobs, identifier: str, kept: int) -> None:
+    """Delete all but the newest so many files made of a result: each may be as large as what was uploaded."""
+    made = {form: records.export(identifier, form) for form in records.exports(identifier)}
+    written = sorted((one.created, form) for form, one in made.items() if one is not None and one.key is not None)
+    for _, form in written[:-kept]:
+        forget_export(records, blobs, identifier, form)

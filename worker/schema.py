@@ -76,10 +76,11 @@ class AnalysisRecord(_Record):
 
 
 class ExportRecord(_Record):
-    """A file made of a result by a job: pending without a key or a problem."""
+    """A file made of a result by a job: pending without a key or a problem. `created` is in seconds since 1970."""
 
     key: str | None = None
     media_type: str = ""
+    created: float = 0.0
     problem: dict[str, Any] | None = None
 
 

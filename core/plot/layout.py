@@ -93,7 +93,7 @@ def _clock(document: SegmentationDocument) -> Iterator[Line | Label]:
     for tick in _ticks(first / unit, (first + seconds) / unit, TIME_TICKS):
         x = LEFT + WIDTH * (tick * unit - first) / seconds
         yield Line(((x, y), (x, y + 4)), INK)
-        yield Label((x, y + 6 + TEXT), f"{tick:g}", INK)
+        yield Label((x, y + 6 + TEXT), f"{tick:.10g}", INK)
     yield Label((LEFT + WIDTH / 2, y + 10 + 2 * TEXT), "minutes" if minutes else "seconds", INK)
 
 

@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import struct
+import time
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -12,6 +13,7 @@ import pytest
 from tests.glb import bending_strip
 from worker import keys
 from worker.blobs import Blobs
+from worker.exports import MOST_EXPORTS
 from worker.jobs import Jobs
 from worker.records import connect
 from worker.retention import sweep
@@ -156,6 +158,8 @@ BAD = {
     "a line break": ([edit(0, FRAMES, name="a\nb")], "/segments/0/name"),
     "a control character": ([edit(0, FRAMES, name="a\x00b")], "/segments/0/name"),
     "text turned round": ([edit(0, FRAMES, name="a\u202eb")], "/segments/0/name"),
+    "nothing to see": ([edit(0, FRAMES, name="\u200d")], "/segments/0/name"),
+    "a wide formula": ([edit(0, FRAMES, name="＝1+1")], "/segments/0/name"),
     "a formula": ([edit(0, FRAMES, name="=1+1")], "/segments/0/name"),
     "a key that is not known": ([{**WHOLE, "colour": 1}], "/segments/0/colour"),
     "a key left out": ([{"start": 0, "end": FRAMES}], "/segments/0/motion"),
@@ -280,3 +284,17 @@ def test_clips_carry_what_a_person_has_set(service):
     assert clip_names(fetched("clips?revision=latest")) == ["go_left_right_01-loop", "go_left_right_02"]
     assert clip_names(fetched("clips?revision=1&keep_discarded=true"))[0] == "T-pose_01"
     assert clip_names(fetched("keyframes?revision=1")) == ["key_frames"]
+
+
+def test_only_the_newest_files_are_kept(service, fresh):
+    """Who asks for more and more of them fills no disk: the oldest go, and are made again where they are asked for."""
+    identifier, jobs = fresh.rpartition("/")[2], Jobs(connect(service.redis_url))
+    for seconds in range(MOST_EXPORTS + 2):
+        answer = service.http.get(f"{fresh}/clips?min_seconds=0.0{seconds:02}", headers={"Prefer": "wait=30"})
+        assert answer.status_code == 200
+    while len(kept := jobs.records.exports(identifier)) > MOST_EXPORTS:
+        time.sleep(0.05)  # the worker clears up after its answer
+    assert "clips?min_seconds=0.001" not in kept
+    stored = {path.name for path in (service.data / "blobs" / "exports").rglob("*")}
+    assert {jobs.records.export(identifier, form).key.rpartition("/")[2] for form in kept} <= stored
+    assert service.http.get(f"{fresh}/clips", headers={"Prefer": "wait=30"}).status_code == 200

@@ -8,6 +8,9 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from core.errors import ParameterError
 
+LONGEST_LIST = 2000
+"""Letters of a list of motions."""
+
 
 class ClipOptions(BaseModel):
     """Every choice; the defaults give one file, clips from 0 seconds, all segments, the take itself taken out."""
@@ -21,8 +24,12 @@ class ClipOptions(BaseModel):
     handles_seconds: float = Field(0.0, description="seconds of the take to add on either side", ge=0, le=60)
     min_seconds: float = Field(0.0, description="seconds below which a segment is no clip", ge=0, le=3600)
     split_repeats: bool = Field(False, description="one clip for each repetition, where a segment has several")
-    loop: str = Field("", description="motions whose clips loop, by name, with commas between: suffix `-loop`")
-    discard: str = Field("", description="motions to leave out, by name, with commas between")
+    loop: str = Field(
+        "",
+        max_length=LONGEST_LIST,
+        description="motions whose clips loop, by name, with commas between: suffix `-loop`",
+    )
+    discard: str = Field("", max_length=LONGEST_LIST, description="motions to leave out, by name, with commas between")
     keep_discarded: bool = Field(False, description="clips of segments too that a revision discards")
     files: Literal["one", "separate"] = Field("one", description="one file with all clips, or a zip of one file each")
     animation_only: bool = Field(False, description="nodes and clips alone, without meshes and materials")

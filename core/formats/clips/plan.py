@@ -9,6 +9,12 @@ from core.errors import ParameterError
 from core.formats.clips.names import numbered
 from core.formats.clips.options import ClipOptions
 
+MOST_OVER = 10
+"""How many times as long as the take its clips may be together."""
+
+SHORT_SECONDS = 600.0
+"""So long they may be in any case."""
+
 
 @dataclass(frozen=True)
 class Stretch:
@@ -58,7 +64,7 @@ def plan(
     """The clips of a result, beside animations whose names are `taken`.
 
     A clip ends where the next segment begins, so that one clip's last pose is the next one's first. Raises
-    `ParameterError` for a motion that there is not, and `no-clips` where nothing is left.
+    `ParameterError` for a motion that there is not, `no-clips` where nothing is left, and `handles-too-long`.
     """
     looping, discarded = _known(document, "loop", options.looping()), _known(document, "discard", options.discarded())
     pieces = [
@@ -75,10 +81,20 @@ def plan(
             "No clip is left: every segment is discarded, or shorter than min_seconds. Ask for less to be left out.",
             parameter="discard" if discarded else "min_seconds",
         )
+    _fits(pieces, options, stretches)
     names = numbered(
         ((piece.segment.name, piece.segment.loop or piece.segment.name in looping) for piece in pieces), taken
     )
     return tuple(_clip(document, options, name, piece) for name, piece in zip(names, pieces, strict=True))
+
+
+def _fits(pieces: Sequence[_Piece], options: ClipOptions, stretches: Sequence[Stretch]) -> None:
+    """Handles make clips overlap: many short ones with long handles are the take over and over again."""
+    whole = sum(stretch.until - stretch.start for stretch in stretches)
+    asked = sum(min(piece.end - piece.start + 2 * options.handles_seconds, whole) for piece in pieces)
+    if options.handles_seconds and asked > max(MOST_OVER * whole, SHORT_SECONDS):
+        detail = f"With these handles the clips of a take of {whole:.0f} seconds are {asked:.0f} seconds long together."
+        raise ParameterError("handles-too-long", f"{detail} Ask for shorter ones.", parameter="handles_seconds")
 
 
 def _clip(document: SegmentationDocument, options: ClipOptions, name: str, piece: _Piece) -> Clip:

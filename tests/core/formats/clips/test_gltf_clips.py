@@ -190,6 +190,18 @@ def test_handles_and_origin():
     assert [i["max"][0] for i in inputs] == pytest.approx([1 / 3, 2 / 3, 1])
 
 
+def test_handles_that_repeat_the_take_over_and_over_are_refused():
+    """A thousand short clips with long handles would be a file without end."""
+    model = square()
+    model.animate(0, "translation", [0, 100], [[0, 0, 0], [1, 0, 0]])
+    data = model.glb()
+    document = cut_at(opened(data, fps=30), range(10, 3000, 10))
+    assert len(names_of(clips_of(data, document, handles_seconds=0.3))) == 300
+    with pytest.raises(ParameterError) as refused:
+        clips_of(data, document, handles_seconds=30)
+    assert refused.value.code == "handles-too-long"
+
+
 def test_what_is_discarded_or_short_is_no_clip():
     """By name or by length; nothing left, or a name that there is not, is refused."""
     data = moving_square().glb()
