@@ -32,10 +32,19 @@ def _lower(what: int, soft: int) -> None:
     resource.setrlimit(what, (soft if hard == resource.RLIM_INFINITY else min(soft, hard), hard))
 
 
+def resident_bytes() -> int:
+    """Bytes of memory in use by this process; where the system does not tell, none."""
+    return _pages(1)
+
+
 def _address_space() -> int:
     """Bytes of address space in use; where the system does not tell, none."""
+    return _pages(0)
+
+
+def _pages(field: int) -> int:
     try:
-        pages = int(Path("/proc/self/statm").read_text().split()[0])
+        pages = int(Path("/proc/self/statm").read_text().split()[field])
     except OSError:
         return 0
     return pages * resource.getpagesize()

@@ -1,5 +1,6 @@
 """RQ's worker, as we want it: it dies with its parent, says that its job lives, and tells how a job was lost."""
 
+import gc
 import json
 import os
 import random
@@ -17,6 +18,7 @@ from rq.executions import Execution
 from rq.job import Job
 from rq.serializers import JSONSerializer
 
+from worker.allowance import resident_bytes
 from worker.attempt import OUT_OF_MEMORY, OUT_OF_TIME
 from worker.horse import Horse
 from worker.jobs import QUEUES, TASKS, Jobs, worker_problem
@@ -27,7 +29,10 @@ IDLE_SECONDS = 30  # between signs of life, and waits for a job, while none does
 MAINTENANCE_SECONDS = 60
 RECONNECT_SECONDS = 5.0
 FAR_SECONDS = 10**9
-CUTS_OF_A_HORSE = 200
+JOBS_OF_A_HORSE = 200
+KEPT_BYTES = 256 * 2**20
+"""A horse that has grown by more ends, so that its memory goes back."""
+KEPT_TASKS = frozenset({TASKS["analyse"], TASKS["cut"]})
 
 KILLED = worker_problem(
     "worker-killed", "The process that worked on this was killed, most likely because the machine ran out of memory."
@@ -57,6 +62,8 @@ class CaesuraWorker(Worker):
         self._handing_back = False
         self._horse: Horse | None = None
         self._done = 0
+        self._small = 0
+        self._yields = False
 
     def execute_job(self, job: Job, queue: RqQueue) -> None:
         """In the worker: have a job done, and the next horse stand ready before the next job comes."""
@@ -95,18 +102,25 @@ class CaesuraWorker(Worker):
             self._horse = None
 
     def _perform(self, order: str) -> bool:
-        """In the horse: do a job. Cuts are small and alike, so the same horse does many; whatever else ends it."""
+        """In the horse: do a job. The same horse does many of the usual ones, as long as it stays small.
+
+        What yields once yields for good, so a horse that has analysed cuts at its low priority too: the worker on
+        `cut` alone does not.
+        """
         job_id, execution, name = json.loads(order)
         queue = RqQueue(name, connection=self.connection, serializer=JSONSerializer)
         job = Job.fetch(job_id, connection=self.connection, serializer=JSONSerializer)
         self.execution = Execution(execution, job_id, self.connection, self.name)
         self._is_horse = True
-        if name == "analyse":
+        if name == "analyse" and not self._yields:
+            self._yields = True
             yield_to_others()
         random.seed()
         self._done += 1
-        done = self.perform_job(job, queue)
-        return done and job.func_name == TASKS["cut"] and self._done < CUTS_OF_A_HORSE
+        self._small = self._small or resident_bytes()
+        done = self.perform_job(job, queue) and job.func_name in KEPT_TASKS and self._done < JOBS_OF_A_HORSE
+        gc.collect()
+        return done and resident_bytes() - self._small < KEPT_BYTES
 
     def unsubscribe(self) -> None:
         """At the end: RQ would wait a second for its listening thread, which ends with the process anyway."""
