@@ -27,12 +27,12 @@ function begin() {
   return task.signal;
 }
 
-function refuse(problem) {
+function refuse(problem, name = '') {
   if (problem.name === 'AbortError') return;
   if (!(problem instanceof api.Problem)) console.error(problem);
   const { pointer, parameter, frame, code } = problem.document || {};
   $('refused-detail').textContent = problem instanceof api.Problem ? problem.message : 'The page itself failed; the console says where.';
-  $('refused-where').textContent = [code, pointer, parameter, frame !== undefined && `frame ${frame}`].filter(Boolean).join(' · ');
+  $('refused-where').textContent = [name, code, pointer, parameter, frame !== undefined && `frame ${frame}`].filter(Boolean).join(' · ');
   face('refused', 'Problem');
 }
 
@@ -51,7 +51,7 @@ async function openFiles(files) {
     const segmentation = await api.segment(animation.id);
     history.pushState(null, '', `/view/${segmentation.id}`);
     await follow(segmentation.id, signal);
-  } catch (problem) { refuse(problem); }
+  } catch (problem) { refuse(problem, files[0].name); }
 }
 
 /** The scene before its buffers: its name is the animation's. */

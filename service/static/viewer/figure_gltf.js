@@ -3,6 +3,7 @@
 import { AnimationMixer, Box3, BufferAttribute, DoubleSide, LoopRepeat, MeshLambertMaterial, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { bones } from './bones.js';
+import { inOrder } from './locality.js';
 
 export async function gltfFigure(viewer, strain, onProgress) {
   const gltf = await new GLTFLoader().loadAsync(viewer.model, (event) => event.total && onProgress(event.loaded / event.total));
@@ -40,6 +41,7 @@ class GltfFigure {
     if (!geometry.getAttribute('_patch')) {
       geometry.setAttribute('_patch', new BufferAttribute(new Float32Array(geometry.getAttribute('position').count), 1));
     }
+    if (geometry.index) geometry.setIndex(new BufferAttribute(inOrder(geometry.index.array), 1));
     mesh.material = strain.dress(new MeshLambertMaterial({
       side: DoubleSide, flatShading: !geometry.getAttribute('normal'),
     }));

@@ -2,13 +2,14 @@
 
 import { Box3, BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshLambertMaterial, Vector3 } from 'three';
 import { BlockFile } from './blocks.js';
+import { inOrder } from './locality.js';
 
 const LARGEST = 32767;
 
 export async function verticesFigure(viewer, strain) {
   const file = await BlockFile.open(viewer.model, 'int16');
   const [triangles, patches] = await Promise.all([file.array('triangles'), file.array('patches'), file.fetch(0)]);
-  return new VerticesFigure(file, triangles, patches, strain);
+  return new VerticesFigure(file, inOrder(triangles), patches, strain);
 }
 
 class VerticesFigure {

@@ -1,68 +1,102 @@
-// The floor: a grid that fades into the distance and a soft shade where the figure stands, in one plane.
+// The floor: lines that fade into the distance and a soft shade where the figure stands. Lines and one small square, not
+// a plane to the horizon: a renderer without a graphics card pays for every pixel that is covered.
 
-import { Color, Mesh, PlaneGeometry, ShaderMaterial, Vector2 } from 'three';
+import { BufferAttribute, BufferGeometry, Color, Group, LineSegments, Mesh, PlaneGeometry, ShaderMaterial, Vector2 } from 'three';
 
-const VERTEX = `
-varying vec2 vAt;
+const CELLS = 30; // on either side of the middle
+const PIECES = 15; // a line is cut into so many on either side, for it fades along its length
+const COARSE = 5; // every fifth line is stronger, and seen further
+const BLOB = 1.2; // bodies' widths from the middle of the shade to where nothing of it is left
+
+const LINES = {
+  vertexShader: `
+attribute float strength;
+uniform float reach;
+uniform vec2 middle;
+varying float vAlpha;
 void main() {
   vec4 world = modelMatrix * vec4(position, 1.0);
-  vAt = world.xz;
+  vAlpha = strength * (1.0 - smoothstep(0.1, strength > 0.5 ? 1.0 : 0.55, length(world.xz - middle) / reach));
   gl_Position = projectionMatrix * viewMatrix * world;
-}`;
-const FRAGMENT = `
-uniform float cell, reach, body;
-uniform vec2 middle, stand;
-uniform vec3 line, shade;
-varying vec2 vAt;
-float grid(float size) {
-  vec2 at = vAt / size;
-  vec2 near = abs(fract(at - 0.5) - 0.5) / max(fwidth(at), 1e-6);
-  return 1.0 - min(min(near.x, near.y), 1.0);
-}
+}`,
+  fragmentShader: `
+uniform vec3 line;
+varying float vAlpha;
 void main() {
-  float fade = 1.0 - smoothstep(0.15, 1.0, length(vAt - middle) / reach);
-  float lines = max(grid(cell) * 0.35, grid(cell * 5.0) * 0.7) * fade;
-  float dark = 0.42 * exp(-3.2 * dot(vAt - stand, vAt - stand) / (body * body));
-  float alpha = lines + dark * (1.0 - lines);
-  gl_FragColor = vec4(mix(shade, line, alpha > 0.0 ? lines / alpha : 0.0), alpha);
+  gl_FragColor = vec4(line, vAlpha);
   #include <colorspace_fragment>
-}`;
+}`,
+};
+const SHADE = {
+  vertexShader: `
+varying vec2 vAt;
+void main() {
+  vAt = position.xz * 2.0;
+  gl_Position = projectionMatrix * viewMatrix * modelMatrix * vec4(position, 1.0);
+}`,
+  fragmentShader: `
+uniform vec3 shade;
+varying vec2 vAt;
+void main() {
+  float left = max(0.0, 1.0 - dot(vAt, vAt));
+  gl_FragColor = vec4(shade, 0.42 * left * left * left);
+  #include <colorspace_fragment>
+}`,
+};
 
 export class Floor {
+  #lines; #shade; #cell = 1;
+
   constructor() {
-    this.uniforms = {
-      cell: { value: 1 }, reach: { value: 10 }, body: { value: 1 }, middle: { value: new Vector2() },
-      stand: { value: new Vector2() }, line: { value: new Color() }, shade: { value: new Color() },
-    };
-    const material = new ShaderMaterial({
-      uniforms: this.uniforms, vertexShader: VERTEX, fragmentShader: FRAGMENT, transparent: true, depthWrite: false,
-    });
-    this.object = new Mesh(new PlaneGeometry(1, 1).rotateX(-Math.PI / 2), material);
-    this.object.renderOrder = -1;
-    this.object.frustumCulled = false;
+    this.uniforms = { reach: { value: 10 }, middle: { value: new Vector2() }, line: { value: new Color() }, shade: { value: new Color() } };
+    const material = (shaders) => new ShaderMaterial({ uniforms: this.uniforms, ...shaders, transparent: true, depthWrite: false });
+    this.#lines = new LineSegments(grid(), material(LINES));
+    this.#shade = new Mesh(new PlaneGeometry(1, 1).rotateX(-Math.PI / 2), material(SHADE));
+    this.#shade.renderOrder = -2;
+    this.#lines.renderOrder = -1;
+    this.#lines.frustumCulled = this.#shade.frustumCulled = false;
+    this.object = new Group().add(this.#shade, this.#lines);
   }
 
   /** Fit a figure of this height and width, standing at height `y`. Cells are 1, 2 or 5 times a power of ten. */
   fit(size, width, y) {
     const power = 10 ** Math.floor(Math.log10(size / 4));
     const steps = [5, 2, 1].map((n) => n * power);
-    this.uniforms.cell.value = steps.find((step) => step <= size / 4) || power;
-    this.uniforms.reach.value = size * 7;
-    this.uniforms.body.value = Math.max(width * 0.75, size * 0.15);
-    this.object.scale.setScalar(size * 15);
+    this.#cell = steps.find((step) => step <= size / 4) || power;
+    this.uniforms.reach.value = Math.min(size * 7, this.#cell * (CELLS - COARSE));
+    this.#lines.scale.setScalar(this.#cell);
+    this.#shade.scale.setScalar(2 * BLOB * Math.max(width * 0.75, size * 0.15));
     this.object.position.y = y;
   }
 
   /** Keep under the figure; the lines stay where they are in the world. */
   follow(middle, stand) {
-    this.object.position.x = middle.x;
-    this.object.position.z = middle.z;
+    const step = this.#cell * COARSE;
+    this.#lines.position.set(Math.round(middle.x / step) * step, 0, Math.round(middle.z / step) * step);
+    this.#shade.position.set(stand.x, 0, stand.z);
     this.uniforms.middle.value.set(middle.x, middle.z);
-    this.uniforms.stand.value.set(stand.x, stand.z);
   }
 
   colours(line, shade) {
     this.uniforms.line.value.set(line);
     this.uniforms.shade.value.set(shade);
   }
+}
+
+/** Lines both ways, a cell of 1 apart, in pieces. */
+function grid() {
+  const places = [];
+  const strengths = [];
+  const piece = CELLS / PIECES;
+  for (let at = -CELLS; at <= CELLS; at++) {
+    const strength = at % COARSE ? 0.35 : 0.7;
+    for (let from = -CELLS; from < CELLS; from += piece) {
+      places.push(at, 0, from, at, 0, from + piece, from, 0, at, from + piece, 0, at);
+      strengths.push(strength, strength, strength, strength);
+    }
+  }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(new Float32Array(places), 3));
+  geometry.setAttribute('strength', new BufferAttribute(new Float32Array(strengths), 1));
+  return geometry;
 }

@@ -18,7 +18,7 @@ export class SegmentList {
     const whole = before.length !== document.segments.length || this.#counted !== countsFrom();
     this.#document = document;
     this.#counted = countsFrom();
-    $('column-frames').textContent = this.#counted ? 'frames' : 'from';
+    $('column-frames').textContent = this.#counted ? 'frames · lasts' : 'from · lasts';
     if (whole) return this.#fill();
     document.segments.forEach((segment, index) => {
       if (segment === before[index]) return;
