@@ -5,6 +5,7 @@ import pytest
 
 from core.animation import Animation, Take
 from core.descriptors.projection import sample_frames
+from core.errors import InvalidModel
 from core.glance import FRAMES
 from core.parameters import Parameters
 from core.pipeline import analyse
@@ -22,3 +23,29 @@ def test_the_percentile_is_right_though_the_frames_looked_at_are_nothing_like_th
     square = Animation(lambda a, b: vertices[a:b], 4, np.array([[0, 1, 2], [1, 3, 2]]), SQUARE, frames, 30.0, take)
     expected = np.percentile(np.sqrt(2) * np.log(np.repeat(stretch, 2)), 99.9)
     assert analyse(square, Parameters()).strain_scale == pytest.approx(expected, rel=1e-4)
+
+
+def test_the_percentile_is_right_though_the_frames_looked_at_hardly_move() -> None:
+    """All others are strained a thousand times as much, beyond the codes that were chosen."""
+    frames = 33_000
+    stretch = 1 + 0.5 * np.random.default_rng(0).random(frames)
+    stretch[sample_frames(frames, FRAMES)] = 1.0003
+    vertices = (stretch[:, None, None] * SQUARE).astype(np.float32)
+    take = Take(0, "", frames / 30, frames, 30.0)
+    square = Animation(lambda a, b: vertices[a:b], 4, np.array([[0, 1, 2], [1, 3, 2]]), SQUARE, frames, 30.0, take)
+    expected = np.percentile(np.sqrt(2) * np.log(np.repeat(stretch, 2)), 99.9)
+    assert analyse(square, Parameters()).strain_scale == pytest.approx(expected, rel=1e-4)
+
+
+@pytest.mark.parametrize("triangles", [[[0, 1, 2], [1, 3, 2]], [[0, 1, 2]]])
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 2e15])
+def test_a_coordinate_that_is_no_place_is_named(triangles, value) -> None:
+    """Whether its vertex is the corner of a triangle, looked at with the strain, or of none."""
+    vertices = np.repeat(SQUARE[None], 200, axis=0) * np.linspace(1, 1.2, 200, dtype=np.float32)[:, None, None]
+    vertices[133, 3, 1] = value
+    take = Take(0, "", 200 / 30, 200, 30.0)
+    square = Animation(lambda a, b: vertices[a:b], 4, np.array(triangles), SQUARE, 200, 30.0, take)
+    with pytest.raises(InvalidModel) as refused:
+        analyse(square, Parameters(), threads=2)
+    assert refused.value.code == "non-finite-data"
+    assert "frame 133, vertex 3" in str(refused.value)
