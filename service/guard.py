@@ -65,12 +65,12 @@ class Guard:
         if not self._keys_needed:
             self._origins.check_host(request.headers)
         self._origins.check_origin(request.headers, following=reading)
-        if reading and _is_page(request.url.path):
+        if reading and _is_page(request.scope["path"]):
             return {}
         backend: Backend = request.app.state.backend
         known = await visitor(backend, request) if self._keys_needed else Visitor(LOCAL_OWNER)
         told = await self._count(backend, request, known)
-        if known is None and request.url.path != SESSION:
+        if known is None and request.scope["path"] != SESSION:
             raise _unknown(request)
         if known is not None and known.by_cookie and not reading:
             self._origins.check_named(request.headers)

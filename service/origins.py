@@ -6,6 +6,7 @@ its own name lead to 127.0.0.1 (DNS rebinding) and is of the same origin then, b
 An address made of numbers can be nobody else's name.
 """
 
+from functools import lru_cache
 from ipaddress import ip_address
 from urllib.parse import urlsplit
 
@@ -73,6 +74,7 @@ def _name(host: str) -> str:
         return ""
 
 
+@lru_cache(maxsize=64)
 def _is_address(name: str) -> bool:
     try:
         ip_address(name)

@@ -1,5 +1,6 @@
 """A job that takes more than its share ends alone; and how many threads a share is."""
 
+import shutil
 import signal
 import subprocess
 import sys
@@ -49,6 +50,7 @@ def test_the_quota_bounds_the_threads(tmp_path):
     (tmp_path / "cpu" / "cpu.cfs_quota_us").write_text("50000\n")
     (tmp_path / "cpu" / "cpu.cfs_period_us").write_text("100000\n")
     assert available_threads(tmp_path) == 1
+    shutil.rmtree(tmp_path / "cpu")
     (tmp_path / "cpu.max").write_text("max 100000\n")
     assert available_threads(tmp_path) == allowed
     (tmp_path / "cpu.max").write_text("100000 100000\n")
