@@ -32,7 +32,7 @@ def switching(analysis: Analysis, parameters: Parameters) -> Cut:
         motions = settled.motions if parameters.motions == "auto" else parameters.motions
         weighed, settled = _agreed(weighings, alike, settled, motions)
         found = refined(weighed.signal.per_frame(settled.labels), features, analysis.frame_rate)
-        sure = certainty(weighed.signal, settled, weighed.penalty) * found.clearness
+        sure = np.sqrt(certainty(weighed.signal, settled, weighed.penalty) * found.clearness)
     return Cut(found.labels, keys, sure, scores, _fewer(parameters.motions, settled.motions))
 
 

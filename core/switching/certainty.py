@@ -1,6 +1,6 @@
 """Certainty: what dropping a cut would cost, and whether the segments beside it were seen at all.
 
-What moving it would cost is told by the refinement; their product says which cuts to look at first.
+What moving it would cost is told by the refinement; the geometric mean of both says which cuts to look at first.
 """
 
 import numpy as np
