@@ -1,15 +1,15 @@
 """Nobody gets in without a key, and nobody learns of another's things: every call that OpenAPI lists is tried."""
 
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import httpx
 import pytest
 import redis
+from click.testing import CliRunner
 
 from service.app import create_app
+from service.cli import main
 from service.commands.key_ring import KeyRing
 from service.credentials import new_key
 from service.key_file import line
@@ -32,7 +32,10 @@ def guarded(checkout, tmp_path_factory):
     late, late_record = new_key("mounted")
     (folder / "keys").write_text(f"# keys\n{line(late_record)}\n")
     with with_its_own_redis(checkout, folder, workers=False, access="keys", keys_file=folder / "keys") as running:
-        yield Guarded(running, late)
+        asking = Guarded(running, late)
+        yield asking
+        asking.http.close()
+        asking.redis.close()
 
 
 class Guarded:
@@ -40,6 +43,7 @@ class Guarded:
 
     def __init__(self, running, mounted):
         self.running, self.url, self.mounted = running, running.url, mounted
+        self.http = httpx.Client(timeout=30)  # one: to make a client takes longer than most answers
         self.redis = redis.Redis.from_url(running.redis_url)
         self.ring = KeyRing(self.redis)
         self.mine, self.theirs, self.revoked = (self.key(name) for name in ("mine", "theirs", "revoked"))
@@ -64,7 +68,13 @@ class Guarded:
         if not {"content", "json"} & more.keys() and "requestBody" in PATHS[call.split(" ", 1)[1]][method.lower()]:
             more |= {"content": b"{}"}
             headers |= {"Content-Type": "application/json"}
-        return httpx.request(method, self.url + path, headers=headers, params=query, timeout=30, **more)
+        return self.sent(method, path, headers=headers, params=query, **more)
+
+    def sent(self, method, path, **request):
+        """The answer, as a client hears it that keeps no cookies."""
+        answer = self.http.request(method, self.url + path, **request)
+        self.http.cookies.clear()
+        return answer
 
     def plain(self, answer):
         """What an answer says, but for the id that was asked for and the hour."""
@@ -79,7 +89,7 @@ class Guarded:
         )
 
     def cookie(self, key):
-        answer = httpx.post(f"{self.url}/v1/session", json={"key": key}, headers={"Origin": self.url})
+        answer = self.sent("POST", "/v1/session", json={"key": key}, headers={"Origin": self.url})
         assert answer.status_code == 204
         return {"Cookie": answer.headers["set-cookie"].partition(";")[0]}
 
@@ -140,7 +150,7 @@ def test_a_browser_signs_in_for_a_cookie_and_out_again(owned):
     """No script reads it, no other site sends it; it writes only for our own page; signed out it is worth nothing."""
     call = "POST /v1/segmentations"
     body = {"json": {"animation": owned.animation, "motions": 2}}
-    answer = httpx.post(f"{owned.url}/v1/session", json={"key": owned.mine}, headers={"Origin": owned.url})
+    answer = owned.sent("POST", "/v1/session", json={"key": owned.mine}, headers={"Origin": owned.url})
     flags = answer.headers["set-cookie"].lower()
     assert all(flag in flags for flag in ("httponly", "samesite=strict", "path=/", "max-age="))
     assert owned.mine not in flags
@@ -167,7 +177,7 @@ def test_a_revoked_key_ends_its_sessions(owned):
 
 def test_a_wrong_key_does_not_sign_in(owned):
     """401, no cookie, and the key is in no answer."""
-    answer = httpx.post(f"{owned.url}/v1/session", json={"key": "caesura_secret"})
+    answer = owned.sent("POST", "/v1/session", json={"key": "caesura_secret"})
     assert (answer.status_code, answer.json()["code"]) == (401, "unknown-key")
     assert "set-cookie" not in answer.headers
     assert "caesura_secret" not in answer.text
@@ -194,15 +204,14 @@ def test_redis_holds_no_key(owned):
         assert key.removeprefix("caesura_").encode() not in held
 
 
-def test_the_command_makes_lists_and_revokes_keys(owned, checkout):
+def test_the_command_makes_lists_and_revokes_keys(owned):
     """The key is shown once; afterwards there is its name; `--like` sees what the other sees."""
 
     def caesura(*arguments, status=0):
-        env = {"REDIS_URL": owned.running.redis_url, "CAESURA_DATA_DIR": str(owned.running.data), "PATH": ""}
-        command = [sys.executable, "-m", "service.cli", "keys", *arguments]
-        done = subprocess.run(command, check=False, env=env, cwd=checkout, capture_output=True, text=True, timeout=60)
-        assert done.returncode == status, done.stderr
-        return done.stdout
+        env = {"REDIS_URL": owned.running.redis_url, "CAESURA_DATA_DIR": str(owned.running.data)}
+        done = CliRunner().invoke(main, ["keys", *arguments], env=env)
+        assert done.exit_code == status, done.output
+        return done.output
 
     key = caesura("add", "farm", "--like", "mine").strip()
     assert owned.ask("GET /v1/segmentations/{identifier}", key).status_code == 200
