@@ -77,7 +77,7 @@ export class Stage {
     const centre = box.getCenter(new Vector3());
     const radius = size.length() / 2 || 1;
     const aspect = Math.min(1, this.#size.width / this.#size.height);
-    const distance = (radius * 0.97) / Math.sin((this.#camera.fov * Math.PI) / 360) / aspect;
+    const distance = (radius * 1.05) / Math.sin((this.#camera.fov * Math.PI) / 360) / aspect;
     this.#camera.position.copy(centre).addScaledVector(new Vector3(0.62, 0.26, 0.74).normalize(), distance);
     this.#camera.near = distance / 200;
     this.#camera.far = distance * 60;
