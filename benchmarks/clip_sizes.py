@@ -37,7 +37,7 @@ def main() -> None:
         parts = parts_of(path)
         size = sum(map(len, parts.values()))
         try:
-            files = [clips_of(parts, fps) for fps in ("source", BETWEEN)]
+            files = [clips_of(parts, fps, path.with_suffix(".truth.json")) for fps in ("source", BETWEEN)]
         except CaesuraError as refused:
             print(f"{path.name:38} {size:9} {refused.code}")
             continue
@@ -63,12 +63,11 @@ def parts_of(path: Path) -> dict[str, bytes]:
     return parts
 
 
-def clips_of(parts: Parts, fps: float | str) -> bytes:
+def clips_of(parts: Parts, fps: float | str, truth: Path) -> bytes:
     """The file with its longest take in clips."""
     parameters = Parameters.parse({"fps": fps})
     take = read_animation(parts, parameters, Limits(), scratch)
-    truth = next((Path(sys.argv[1]).rglob(f"{Path(name).stem}.truth.json") for name in parts), iter(()))
-    cuts = list(cuts_of(take.frames, take.frame_rate, next(truth, None)))
+    cuts = list(cuts_of(take.frames, take.frame_rate, truth))
     rate, bounds = take.frame_rate, [0, *cuts, take.frames]
     document = SegmentationDocument(
         id="x3t6kq2v5hn7ma4zr2wye6jd4p", algorithm="1", method="switching", motions=2, frames=take.frames,
@@ -83,9 +82,9 @@ def clips_of(parts: Parts, fps: float | str) -> bytes:
     return b"".join(write_clips(parts, document, ClipOptions(), scratch).pieces)
 
 
-def cuts_of(frames: int, rate: float, truth: Path | None) -> Iterable[int]:
+def cuts_of(frames: int, rate: float, truth: Path) -> Iterable[int]:
     """Where the truth cuts the take, else at `CUTS`; each a frame apart at least."""
-    if truth is None:
+    if not truth.is_file():
         return sorted({min(max(round(share * frames), 1), frames - 1) for share in CUTS if frames > 1})
     known = json.loads(truth.read_text(encoding="utf-8"))
     return [int(segment["start"] * rate / known["fps"]) for segment in known["segments"][1:]]
