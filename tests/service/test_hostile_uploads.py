@@ -9,6 +9,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
+from core.limits import Limits
+from tests.core.formats.test_draco import HOSTILE as DRACO
 from tests.core.formats.test_hostile_gltf import (
     ACCESSORS,
     ANIMATIONS,
@@ -19,17 +21,18 @@ from tests.core.formats.test_hostile_gltf import (
     RESOURCES,
     SKINS,
     STRUCTURE,
+    UNFOLDING,
 )
 from tests.core.formats.test_hostile_npz import FAULTS
+from tests.core.formats.test_zip import HOSTILE as ZIPS
+from tests.core.formats.test_zip import zipped
 from tests.glb import Glb, bending_strip, moving_square
 
 LONGEST_SECONDS = 10
 CLIENTS = 4
-STATUS = {"unsupported-media-type": 415, "malformed-glb": 400, "malformed-json": 400, "malformed-npz": 400}
+STATUS = dict.fromkeys(("malformed-glb", "malformed-json", "malformed-npz", "malformed-zip", "malformed-bvh"), 400)
+STATUS |= {"unsupported-media-type": 415}
 """All others are 422."""
-
-EVERY = 3
-"""One in so many files of a table is sent; each code at least once. The readers' own tests have them all."""
 
 
 def _mutated(base, mutate):
@@ -48,15 +51,15 @@ def _hostile():
             yield name, _mutated(base, mutate), code, pointer
     for name, data, code in [*CONTAINERS, *FAULTS]:
         yield name, data, code, None
-
-
-def _some(rows):
-    """Every third, and the first of each code."""
-    seen: set[str] = set()
-    for place, row in enumerate(rows):
-        if place % EVERY == 0 or row[2] not in seen:
-            seen.add(row[2])
-            yield row
+    for name, base, mutate, code in DRACO:
+        yield name, _mutated(base, mutate), code, None
+    for name, (files, code) in ZIPS.items():
+        if code is not None:
+            yield name, zipped(files), code, None
+    for row in UNFOLDING:
+        mutate, limits, _ = row.values
+        if limits == Limits():
+            yield row.id, _mutated(moving_square, mutate), "limit-exceeded", None
 
 
 @pytest.fixture(scope="module")
@@ -71,7 +74,7 @@ def outcomes(service):
 
     service.http.post("/v1/segmentations", content=moving_square().glb(), headers={"Prefer": "wait=30"})
     with ThreadPoolExecutor(CLIENTS) as clients:
-        return list(clients.map(sent, _some(_hostile())))
+        return list(clients.map(sent, _hostile()))
 
 
 @pytest.mark.filterwarnings("ignore:Duplicate name")
@@ -96,7 +99,7 @@ def test_no_hostile_upload_takes_long(outcomes):
 def test_odd_uploads_are_taken_and_the_service_goes_on(service, outcomes):
     """Rare but legal files are segmented, after all the others; the spool is empty and Redis at hand."""
     refused = []
-    for name, mutate, _ in ODD[1:]:  # the deep chain is the reader's to test
+    for name, mutate, _ in ODD:
         answer = service.http.post(
             "/v1/segmentations", content=_mutated(moving_square, mutate), headers={"Prefer": "wait=30"}
         )

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from typing import Any
 from urllib.parse import unquote
 
+from core.errors import BrokenContainer
 from core.formats.gltf.buffers import Buffers
 from core.formats.gltf.document import COMPRESSED, Document
 
@@ -17,7 +18,7 @@ class SelfContained:
     """`json` is a copy to be changed at will; `pieces` are (offset, bytes) of the binary chunk, `length` long."""
 
     def __init__(self, document: Document) -> None:
-        self.json: dict[str, Any] = copy.deepcopy(document.root.value)
+        self.json: dict[str, Any] = _copied(document.root.value)
         self.pieces: list[tuple[int, memoryview]] = []
         self.length = 0
         self._document = document
@@ -73,3 +74,11 @@ def _addressed(view: dict[str, Any]) -> Iterator[dict[str, Any]]:
     for name in COMPRESSED & view.get("extensions", {}).keys():
         if "buffer" in view["extensions"][name]:
             yield view["extensions"][name]
+
+
+def _copied(value: dict[str, Any]) -> dict[str, Any]:
+    """All of it, to be changed; refused where it is nested deeper than can be copied, though it could be read."""
+    try:
+        return copy.deepcopy(value)
+    except RecursionError:
+        raise BrokenContainer("malformed-json", "The JSON is nested too deeply. Export the file again.") from None
