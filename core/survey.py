@@ -1,97 +1,26 @@
-"""The pass over the vertices: everything that is measured on a block of frames, and its reduction in block order."""
+"""The pass over the vertices: every block of frames measured, and all of them as one, in block order."""
 
-from collections import deque
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float32, Int, UInt8, UInt16
+from jaxtyping import Int, UInt8
 
 from core import kernels
 from core.animation import Animation
-from core.basis import Basis, basis
+from core.basis import basis
 from core.blocks import Block, blocks_of, frames_per_block, map_blocks
 from core.body import Body
 from core.buffers import Buffers
 from core.codes import CODES, Coding
-from core.descriptors.strain import ROUNDING, TriangleStrain, UnreadableError
-from core.drawing import draw
+from core.descriptors.strain import ROUNDING
 from core.glance import Glance
+from core.histograms import Histograms
 from core.progress import Progress, ignore
+from core.surveyor import Page, Surveyor
 
 STILL_SHARE = 1e-6
 """A body does not strain where no more than this share of its strains, over all frames, rises above rounding."""
-
-
-@dataclass(frozen=True)
-class Page:
-    """One block of frames, measured: what is compared over the take, and what is kept of every frame."""
-
-    largest: float
-    above_noise: int
-    widest: float
-    described: tuple[np.ndarray, np.ndarray]
-
-
-@dataclass(frozen=True)
-class Surveyor:
-    """Measures a block of frames. Safe from several threads. Codes below `floor` are not told apart in histograms."""
-
-    animation: Animation
-    body: Body
-    reach: float
-    coding: Coding
-    floor: int
-    noise: Float32[np.ndarray, "columns"]
-    projections: Basis | None
-    kept: UInt16[np.ndarray, "codes"]
-    histograms: "Histograms"
-
-    def keeps(self, block: Block) -> bool:
-        """Whether the codes of the block are kept: those of the first frames are, as many as there is memory for."""
-        return block[1] * self.body.surface.columns <= len(self.kept)
-
-    def place(self, block: Block) -> UInt16[np.ndarray, "columns frames"]:
-        """Where the codes of a block are that is kept. One piece of memory holds all: many would be cleared singly."""
-        columns = self.body.surface.columns
-        return self.kept[block[0] * columns : block[1] * columns].reshape(columns, block[1] - block[0])
-
-    def measure(self, block: Block) -> Page:
-        """Draw the block, and read every tile of its strain while it is in the cache."""
-        vertices = draw(self.animation, block, checked=self._checks)
-        means, histogram = self.body.patches.empty(len(vertices)), self.histograms.take()
-        largest, above = 0.0, 0
-        kept = self.place(block) if self.keeps(block) else np.empty((0, len(vertices)), np.uint16)
-        try:
-            for columns, tile in self.body.surface.tiles(vertices):
-                if self.body.patches.patches:
-                    self.body.patches.add(columns, tile, means)
-                most, more = self.coding.read(tile, self.noise[columns], self.floor, kept[columns], histogram)
-                largest, above = max(largest, most), above + more
-        except UnreadableError:
-            draw(self.animation, block)  # says where
-            raise
-        self.histograms.give(histogram)
-        apart = self.body.pairs.measure(vertices)
-        described = (means.T, apart)
-        if self.projections is not None:
-            described = (self.projections[0].project(means.T), self.projections[1].project(apart))
-        return Page(largest, above, float(np.abs(apart).max(initial=0)), described)
-
-    @property
-    def _checks(self) -> bool:
-        """Whether measuring looks at every coordinate: a pass less over the vertices."""
-        return isinstance(self.body.surface, TriangleStrain) and self.body.surface.covers
-
-    def codes(self, block: Block, buffers: Buffers) -> UInt16[np.ndarray, "columns frames"]:
-        """The codes of the block: as kept, or from the vertices, drawn again."""
-        if self.keeps(block):
-            return self.place(block)
-        vertices = draw(self.animation, block, checked=True)
-        codes = buffers.empty((self.body.surface.columns, len(vertices)), np.uint16)
-        for columns, tile in self.body.surface.tiles(vertices):
-            self.coding.encode(tile, codes[columns])
-        return codes
 
 
 @dataclass(frozen=True)
@@ -140,28 +69,6 @@ class Survey:
             return bins
 
         return map_blocks(digitized, self.blocks, threads, progress=progress, stage="energy", total=len(self.blocks))
-
-
-class Histograms:
-    """Counts of codes for as many threads as ask: integers, whose sum is the same in any order."""
-
-    def __init__(self) -> None:
-        self._free: deque[np.ndarray] = deque()
-
-    def take(self) -> Int[np.ndarray, "codes"]:
-        """Counts to add to, nobody else's until they are given back."""
-        try:
-            return self._free.pop()
-        except IndexError:
-            return np.zeros(CODES, np.int64)
-
-    def give(self, counts: Int[np.ndarray, "codes"]) -> None:
-        """Give them back."""
-        self._free.append(counts)
-
-    def total(self) -> Int[np.ndarray, "codes"]:
-        """The sum of all that was given back."""
-        return np.asarray(sum(self._free, np.zeros(CODES, np.int64)))
 
 
 def survey(

@@ -121,7 +121,10 @@ class TriangleStrain:
             yield slice(number * TILE, number * TILE + len(out)), np.concatenate(pieces, axis=1) if pieces else out
 
     def thinned(self, most: int) -> "TriangleStrain":
-        """At most so many of the tiles, evenly spread: enough for a look. All where a frame's whole area is needed."""
+        """At most so many of the tiles, evenly spread and numbered anew: enough for a look.
+
+        All of them where every frame's whole area is needed.
+        """
         step = 1 if self.scale_invariant else -(-len(self.parts) // most)
         return replace(self, parts=self.parts[::step])
 
