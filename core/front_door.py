@@ -123,7 +123,5 @@ def _triangles(given: ArrayLike | None, vertices: int) -> np.ndarray:
 def _refuse_reading(parameters: Mapping[str, Any]) -> None:
     for name in READING:
         if name in parameters:
-            raise ParameterError(
-                "invalid-parameter", f"{name} says what is read of a file or of arrays; this animation is read already.",
-                parameter=name,
-            )  # fmt: skip
+            detail = f"{name} says what is read of a file or of arrays; this animation is read already."
+            raise ParameterError("invalid-parameter", detail, parameter=name)
