@@ -48,9 +48,9 @@ def create_app(settings: ServiceSettings) -> FastAPI:
     app.include_router(pages.router)
     pages.mount(app)
     openapi.describe(app)
+    app.add_middleware(GZipMiddleware, compresslevel=6, exclude_content_types=(*DEFAULT_EXCLUDED_CONTENT_TYPES, *FILES))
     app.add_middleware(ShortWay)
     app.add_middleware(Guard, settings=settings)
-    app.add_middleware(GZipMiddleware, compresslevel=6, exclude_content_types=(*DEFAULT_EXCLUDED_CONTENT_TYPES, *FILES))
     app.add_middleware(SecurityHeaders)
     app.add_middleware(RequestLog, metrics=app.state.metrics)
     return app

@@ -6,7 +6,7 @@ The id goes back in the answer, into the record of what was asked for, and from 
 import logging
 import time
 
-from starlette.datastructures import Headers, MutableHeaders
+from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.metrics import Metrics
@@ -15,8 +15,13 @@ from worker import logs
 log = logging.getLogger("service.requests")
 
 HEADER = "X-Request-Id"
+FAILED = 400
+RAW_HEADER = HEADER.lower().encode()
 NO_ANSWER = 499
 """What is counted where the client had gone before an answer began."""
+
+POLLED = frozenset({"/healthz", "/readyz", "/metrics", "/v1/segmentations/{identifier}"})
+"""Asked again and again, by probes and by everyone who waits: counted, and told only where they fail."""
 
 
 class RequestLog:
@@ -39,7 +44,7 @@ class RequestLog:
                 nonlocal status, seconds
                 if message["type"] == "http.response.start":
                     status, seconds = message["status"], time.perf_counter() - began
-                    MutableHeaders(scope=message)[HEADER] = logs.request_id()
+                    message["headers"] = [*message.get("headers", ()), (RAW_HEADER, logs.request_id().encode())]
                 await send(message)
 
             try:
@@ -50,7 +55,7 @@ class RequestLog:
     def _tell(self, scope: Scope, status: int, seconds: float, *, waited: bool) -> None:
         route = getattr(scope.get("route"), "path", "")
         self._metrics.request(scope["method"], route, status, None if waited else seconds)
-        if route in {"/healthz", "/readyz", "/metrics"} and status < NO_ANSWER:
+        if route in POLLED and scope["method"] == "GET" and status < FAILED:
             return
         told = {"method": scope["method"], "path": scope["path"], "status": status, "ms": round(seconds * 1000, 1)}
         log.info("request", extra={"told": told})
