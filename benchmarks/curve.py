@@ -10,7 +10,7 @@ from jaxtyping import Float
 from core.animation import Animation
 from core.blocks import blocks_of, frames_per_block
 from core.body import NO_PATCHES, Body
-from core.codes import CODES, normaliser
+from core.codes import CODES
 from core.drawing import draw
 from core.energy import energy_curve, window_frames
 from core.parameters import Parameters
@@ -48,18 +48,18 @@ class Curve:
 
     def surveyed(self) -> Survey:
         """The pass over the vertices."""
-        return survey(self.animation, self.bare, threads=self.threads, memory_bytes=self.memory_bytes)
+        memory = self.memory_bytes
+        return survey(self.animation, self.bare, Parameters(), threads=self.threads, memory_bytes=memory)
 
     def scale(self, take: Survey) -> float:
         """The strain that counts as 1."""
-        coding = take.surveyor.coding
-        return normaliser("p99.9", coding, take.histogram, take.largest, take.share_above_noise)
+        return take.scale(Parameters().normalize)
 
     def energy(self) -> Float[np.ndarray, "frames"]:
         """The curve."""
         take = self.surveyed()
-        bins = take.bins(self.scale(take), LEVELS, self.threads)
-        return energy_curve(bins, self.animation.frames, self.window, LEVELS, self.threads)
+        bins = take.bins(self.scale(take), LEVELS)
+        return energy_curve(bins, self.animation.frames, self.window, LEVELS, take.threads)
 
     def stages(self) -> dict[str, Callable[[], object]]:
         """Each step of a whole analysis's passes by itself, over the whole take, on one thread."""

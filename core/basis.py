@@ -4,7 +4,7 @@ import numpy as np
 
 from core.analysis import Features
 from core.animation import Animation
-from core.blocks import blocks_of, frames_per_block, map_blocks
+from core.blocks import blocks_of, frames_per_block, map_blocks, threads_at_once
 from core.body import Body
 from core.descriptors.projection import Projection, sample_frames
 from core.drawing import draw_frames
@@ -27,6 +27,7 @@ def basis(animation: Animation, body: Body, threads: int = 1, progress: Progress
     def described(block: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
         return body.describe(draw_frames(animation, frames[slice(*block)]))
 
+    threads = threads_at_once(threads, animation.vertex_count)
     pages = list(map_blocks(described, blocks, threads, progress=progress, stage="sample", total=len(blocks)))
     strain, distances = (np.concatenate(kind) for kind in zip(*pages, strict=True))
     return Projection.of(strain), Projection.of(distances)

@@ -14,6 +14,8 @@ from typing import TypeVar
 from core.progress import Progress, ignore
 
 BLOCK_BYTES = 192 * 2**20
+BLOCKS_BYTES = 4 * BLOCK_BYTES
+"""Memory for the blocks of all threads together."""
 MOST_FRAMES = 64
 HEARTBEAT_SECONDS = 0.2
 
@@ -28,6 +30,16 @@ def frames_per_block(vertex_count: int) -> int:
     """8 to 64 frames, so that one block of float32 vertices stays near `BLOCK_BYTES`."""
     fitting = BLOCK_BYTES // max(12 * vertex_count, 1)
     return int(min(max(fitting // 8 * 8, 8), MOST_FRAMES))
+
+
+def threads_at_once(threads: int, vertex_count: int, columns: int = 0) -> int:
+    """As many of the threads as may hold a block each within `BLOCKS_BYTES`; where meshes are large, fewer.
+
+    A block is its float32 vertices and, of every column, a code of two bytes, a bin of one, and another's bin.
+    It is the threads that are fewer and not the frames of a block, on which bits of a result might depend.
+    """
+    block = frames_per_block(vertex_count) * (12 * vertex_count + 4 * columns)
+    return max(min(threads, BLOCKS_BYTES // max(block, 1)), 1)
 
 
 def blocks_of(frames: int, size: int) -> list[Block]:

@@ -15,6 +15,8 @@ from core.kernels import SHIFT
 
 LOWEST = int(np.float32(2.0**-12).view(np.int32)) >> SHIFT
 CODES = 2**16
+EXPONENTS = (-112, 100)
+"""Of the numbers that are coded: zero has code 0, and the largest float32 the last."""
 PERCENTILE = 99.9
 
 
@@ -27,7 +29,7 @@ class Coding:
     @classmethod
     def around(cls, largest: float) -> "Coding":
         """The coding for values whose largest so far is `largest`: 8 times more still fits."""
-        return cls(2.0 ** -np.floor(np.log2(largest)) if largest > 0 else 1.0)
+        return cls(2.0 ** -float(np.clip(np.floor(np.log2(largest)), *EXPONENTS)) if largest > 0 else 1.0)
 
     def encode(
         self, values: Float32[np.ndarray, "columns frames"], out: UInt16[np.ndarray, "columns frames"] | None = None
@@ -78,6 +80,11 @@ class Coding:
     def tells_percentile(self, histogram: Int[np.ndarray, "codes"], percent: float = PERCENTILE) -> bool:
         """Whether the percentile is above code 0, which may stand for all codes below a floor."""
         return int(histogram[0]) <= (int(histogram.sum()) - 1) * percent / 100
+
+    def tells_edges(self, scale: float, bins: int, histogram: Int[np.ndarray, "codes"]) -> bool:
+        """Whether the first and the last code lump together nothing that an edge between bins of `scale` parts."""
+        highest = int(histogram[-1]) == 0 or scale * (bins - 1) / bins < self.decode(CODES - 1.0)
+        return highest and scale / bins >= self.decode(1.0)
 
     def wider(self) -> "Coding":
         """The coding for values 256 times as large."""

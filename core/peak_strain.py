@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float32, Int
 
 from core.animation import Animation
-from core.blocks import blocks_of, frames_per_block, map_blocks
+from core.blocks import blocks_of, frames_per_block, map_blocks, threads_at_once
 from core.body import Body
 from core.drawing import draw_frames
 from core.progress import Progress, ignore
@@ -33,6 +33,7 @@ def peak_strain(
 
     width = body.surface.columns if whole else body.patches.patches
     out = np.empty((len(frames), width), np.float32)
+    threads = threads_at_once(threads, animation.vertex_count, body.surface.columns)
     pieces = map_blocks(strain, blocks, threads, progress=progress, stage="key-frames", total=len(blocks))
     for (start, stop), piece in zip(blocks, pieces, strict=True):
         out[start:stop] = piece

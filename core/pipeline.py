@@ -7,7 +7,6 @@ from core.analysis import Analysis
 from core.animation import Animation
 from core.basis import features
 from core.body import Body
-from core.codes import normaliser
 from core.document import Notice, Source
 from core.energy import energy_curve, window_frames
 from core.errors import InvalidModel
@@ -45,15 +44,14 @@ def analyse(
         progress("rest shape", 0.0)
         rest = rest_shape(animation, parameters.rest)
         body, notices = Body.of(animation, rest, parameters)
-        take = survey(animation, body, threads=threads, progress=progress, memory_bytes=memory_bytes)
+        take = survey(animation, body, parameters, threads=threads, progress=progress, memory_bytes=memory_bytes)
         if not take.strains and take.bends:
             body = body.by_pairs()
-            take = survey(animation, body, threads=threads, progress=progress, memory_bytes=memory_bytes)
-        share = take.share_above_noise if take.strains else 0.0
-        scale = normaliser(parameters.normalize, take.surveyor.coding, take.histogram, take.largest, share)
+            take = survey(animation, body, parameters, threads=threads, progress=progress, memory_bytes=memory_bytes)
+        scale = take.scale(parameters.normalize)
         length = window_frames(parameters.energy, parameters.window_seconds, animation.frame_rate)
-        bins = take.bins(scale, parameters.bins, threads, progress)
-        energy = energy_curve(bins, animation.frames, length, parameters.bins, threads)
+        bins = take.bins(scale, parameters.bins, progress)
+        energy = energy_curve(bins, animation.frames, length, parameters.bins, take.threads)
         peaks = local_maxima(energy)
         has_mesh = body.patches.patches > 0
         return Analysis(

@@ -9,13 +9,14 @@ from jaxtyping import Int, UInt8
 from core import kernels
 from core.animation import Animation
 from core.basis import basis
-from core.blocks import Block, blocks_of, frames_per_block, map_blocks
+from core.blocks import Block, blocks_of, frames_per_block, map_blocks, threads_at_once
 from core.body import Body
 from core.buffers import Buffers
-from core.codes import CODES, Coding
+from core.codes import CODES, Coding, normaliser
 from core.descriptors.strain import ROUNDING
 from core.glance import Glance
 from core.histograms import Histograms
+from core.parameters import Parameters
 from core.progress import Progress, ignore
 from core.surveyor import Page, Surveyor
 
@@ -25,10 +26,14 @@ STILL_SHARE = 1e-6
 
 @dataclass(frozen=True)
 class Survey:
-    """The whole take, measured. `largest` is the largest strain, `widest` the largest change of a pair distance."""
+    """The whole take, measured, on so many threads.
+
+    `largest` is the largest strain, `widest` the largest change of a pair distance.
+    """
 
     surveyor: Surveyor
     blocks: list[Block]
+    threads: int
     histogram: Int[np.ndarray, "codes"]
     largest: float
     above_noise: int
@@ -50,9 +55,12 @@ class Survey:
         """Whether pair distances change by more than rounding."""
         return self.widest * self.surveyor.body.pairs.size > ROUNDING * self.surveyor.reach
 
-    def bins(
-        self, scale: float, levels: int, threads: int = 1, progress: Progress = ignore
-    ) -> Iterator[UInt8[np.ndarray, "columns _"]]:
+    def scale(self, rule: str | float) -> float:
+        """The strain that counts as 1; noise has none to count."""
+        share = self.share_above_noise if self.strains else 0.0
+        return normaliser(rule, self.surveyor.coding, self.histogram, self.largest, share)
+
+    def bins(self, scale: float, levels: int, progress: Progress = ignore) -> Iterator[UInt8[np.ndarray, "columns _"]]:
         """The bin of every strain over `scale`, φ1 = [0, 1/B], φi = ((i−1)/B, i/B], as 0 … B−1, in blocks of frames.
 
         From the codes where they were kept, else from the vertices, drawn once more.
@@ -68,13 +76,24 @@ class Survey:
             kernels.digitize(codes, edges, bins)
             return bins
 
-        return map_blocks(digitized, self.blocks, threads, progress=progress, stage="energy", total=len(self.blocks))
+        return map_blocks(
+            digitized, self.blocks, self.threads, progress=progress, stage="energy", total=len(self.blocks)
+        )
 
 
 def survey(
-    animation: Animation, body: Body, *, threads: int = 1, progress: Progress = ignore, memory_bytes: int
+    animation: Animation,
+    body: Body,
+    parameters: Parameters,
+    *,
+    threads: int = 1,
+    progress: Progress = ignore,
+    memory_bytes: int,
 ) -> Survey:
-    """Measure every frame once. The codes are kept where all of them fit into `memory_bytes`."""
+    """Measure every frame once, or again where the frames looked at beforehand were nothing like the rest.
+
+    The codes are kept where all of them fit into `memory_bytes`.
+    """
     glance = Glance.at(animation, body.surface)
     coding = Coding.around(glance.strain)
     surveyor = Surveyor(
@@ -89,26 +108,36 @@ def survey(
         Histograms(),
     )
     blocks = blocks_of(animation.frames, frames_per_block(animation.vertex_count))
-
-    def taken(by: Surveyor) -> Survey:
-        pages = map_blocks(by.measure, blocks, threads, progress=progress, stage="strain", total=len(blocks))
-        return _bound(by, blocks, pages)
-
-    take = taken(surveyor)
-    while not coding.reaches_percentile(take.histogram):  # where the frames looked at were nothing like the rest
-        coding = coding.wider()
-        take = taken(replace(surveyor, coding=coding, floor=0, histograms=Histograms()))
-    if take.surveyor.floor == 0 or coding.tells_percentile(take.histogram):
-        return take
-    return taken(replace(surveyor, floor=0, histograms=Histograms()))
+    together = threads_at_once(threads, animation.vertex_count, body.surface.columns)
+    while True:
+        pages = map_blocks(surveyor.measure, blocks, together, progress=progress, stage="strain", total=len(blocks))
+        take = _bound(surveyor, blocks, together, pages)
+        better = _better(take, parameters)
+        if better is None:
+            return take
+        surveyor = replace(surveyor, coding=better, floor=0, histograms=Histograms())
 
 
-def _bound(surveyor: Surveyor, blocks: list[Block], measured: Iterable[Page]) -> Survey:
+def _better(take: Survey, parameters: Parameters) -> Coding | None:
+    """The coding with which the bins of the take come out right, if its own is not that, or counts from too high."""
+    coding, counts, rule = take.surveyor.coding, take.histogram, parameters.normalize
+    if rule == "p99.9" and take.strains:
+        if not coding.reaches_percentile(counts):
+            return coding.wider()
+        if take.surveyor.floor and not coding.tells_percentile(counts):
+            return coding
+    scale = take.scale(rule)
+    better = Coding.around(scale)
+    return None if better == coding or coding.tells_edges(scale, parameters.bins, counts) else better
+
+
+def _bound(surveyor: Surveyor, blocks: list[Block], threads: int, measured: Iterable[Page]) -> Survey:
     """The pages of a take, in order, as one."""
     pages = list(measured)
     return Survey(
         surveyor,
         blocks,
+        threads,
         surveyor.histograms.total(),
         max(page.largest for page in pages),
         sum(page.above_noise for page in pages),

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from core.blocks import blocks_of, frames_per_block, map_blocks
+from core.blocks import BLOCKS_BYTES, blocks_of, frames_per_block, map_blocks, threads_at_once
 
 
 @pytest.mark.parametrize("threads", [1, 2, 3])
@@ -63,3 +63,12 @@ def test_blocks_tile_the_frames_and_shrink_for_large_meshes():
     """The last is shorter; 64 frames at most, 8 at least."""
     assert blocks_of(10, 4) == [(0, 4), (4, 8), (8, 10)]
     assert (frames_per_block(1000), frames_per_block(500_000), frames_per_block(10**7)) == (64, 32, 8)
+
+
+@pytest.mark.parametrize("vertices", [1_000, 260_000, 500_000])
+def test_the_blocks_of_all_threads_fit_into_memory_together(vertices):
+    """A large mesh has fewer threads and not shorter blocks, which are the same for any number; one there is always."""
+    each = 12 * vertices * frames_per_block(vertices)
+    assert threads_at_once(64, vertices) * each <= BLOCKS_BYTES
+    assert threads_at_once(2, vertices, 2 * vertices) == 2
+    assert threads_at_once(2, 10**9) == 1

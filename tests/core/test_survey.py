@@ -9,6 +9,8 @@ from core.errors import InvalidModel
 from core.glance import FRAMES
 from core.parameters import Parameters
 from core.pipeline import analyse
+from tests import oracles
+from tests.animations import bar
 
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], np.float32)
 
@@ -49,3 +51,25 @@ def test_a_coordinate_that_is_no_place_is_named(triangles, value) -> None:
         analyse(square, Parameters(), threads=2)
     assert refused.value.code == "non-finite-data"
     assert "frame 133, vertex 3" in str(refused.value)
+
+
+@pytest.fixture(scope="module")
+def strained_in_one_place():
+    """A take that all but rests, where one ring is stretched up to eight times; and its strains, one by one."""
+    rest, triangles = bar(rings=700)
+    draw = np.random.default_rng(0)
+    moved = rest * (1 + 1e-4 * np.sin(np.arange(8))[:, None, None])
+    moved[:, 3_600:3_608] *= 1 + 7 * draw.random((8, 1, 1))
+    moved = np.asarray(moved, np.float32)
+    take = Take(0, "", 8 / 30, 8, 30.0)
+    animation = Animation(lambda a, b: moved[a:b], len(rest), triangles, rest, 8, 30.0, take)
+    return animation, oracles.strain(moved, rest, triangles)
+
+
+@pytest.mark.parametrize("normalize", ["max", 2.0, 1e-5, "p99.9"])
+def test_no_bin_is_lost_where_strain_is_in_a_place_that_was_not_looked_at(strained_in_one_place, normalize) -> None:
+    """Whatever counts as 1: the codes that were chosen by what was looked at hold neither the largest nor the least."""
+    animation, strains = strained_in_one_place
+    found = analyse(animation, Parameters(normalize=normalize, window_seconds=0.07, rest="bind"))
+    expected = oracles.energy(oracles.bins(strains, found.strain_scale, 10), 10, 2)
+    np.testing.assert_allclose(found.energy, expected, atol=1e-3)
