@@ -4,6 +4,9 @@ import { AnimationMixer, Box3, BufferAttribute, DoubleSide, LoopRepeat, MeshLamb
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { bones } from './bones.js';
 import { inOrder } from './locality.js';
+import { Painted } from './painted.js';
+import { drawnBySoftware } from './renderer.js';
+import { Skinning } from './skinning.js';
 
 export async function gltfFigure(viewer, strain, onProgress) {
   const gltf = await new GLTFLoader().loadAsync(viewer.model, (event) => event.total && onProgress(event.loaded / event.total));
@@ -11,10 +14,11 @@ export async function gltfFigure(viewer, strain, onProgress) {
 }
 
 class GltfFigure {
-  #mixer; #action; #clip; #viewer; #points = []; #bones = null; #at = new Vector3();
+  #mixer; #action; #clip; #viewer; #points = []; #bones = null; #skinnings = []; #at = new Vector3();
 
   constructor(gltf, viewer, strain) {
     this.object = gltf.scene;
+    this.painted = [];
     this.#viewer = viewer;
     this.object.traverse((node) => {
       if (node.isMesh) this.#dress(node, strain);
@@ -42,9 +46,18 @@ class GltfFigure {
       geometry.setAttribute('_patch', new BufferAttribute(new Float32Array(geometry.getAttribute('position').count), 1));
     }
     if (geometry.index) geometry.setIndex(new BufferAttribute(inOrder(geometry.index.array), 1));
+    if (drawnBySoftware() && Skinning.suits(mesh)) return this.#paint(mesh, strain);
     mesh.material = strain.dress(new MeshLambertMaterial({
       side: DoubleSide, flatShading: !geometry.getAttribute('normal'),
     }));
+  }
+
+  #paint(mesh, strain) {
+    const skinning = new Skinning(mesh);
+    const { index, attributes } = mesh.geometry;
+    this.#skinnings.push(skinning);
+    this.painted.push(new Painted(skinning.positions, skinning.normals, index.array, attributes._patch.array, strain));
+    mesh.visible = false;
   }
 
   ready() { return true; }
@@ -61,6 +74,7 @@ class GltfFigure {
     }
     this.object.updateMatrixWorld(true);
     this.#bones?.update();
+    for (const skinning of this.#skinnings) skinning.pose();
   }
 
   /** The middle of the body: of its joints, or of its parts. */
@@ -79,6 +93,7 @@ class GltfFigure {
 
   dispose() {
     this.#mixer?.stopAllAction();
+    for (const painted of this.painted) painted.dispose();
     this.object.traverse((node) => { node.geometry?.dispose(); node.material?.dispose(); node.skeleton?.dispose(); });
   }
 }

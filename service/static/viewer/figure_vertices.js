@@ -3,6 +3,8 @@
 import { Box3, BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshLambertMaterial, Vector3 } from 'three';
 import { BlockFile } from './blocks.js';
 import { inOrder } from './locality.js';
+import { Painted } from './painted.js';
+import { drawnBySoftware } from './renderer.js';
 
 const LARGEST = 32767;
 
@@ -22,6 +24,17 @@ class VerticesFigure {
     this.#positions = new BufferAttribute(new Int16Array(vertices * 3), 3, true);
     this.#normals = new BufferAttribute(new Int8Array(vertices * 3), 3, true);
     this.#sums = new Float32Array(vertices * 3);
+    this.painted = drawnBySoftware() ? [new Painted(this.#positions, this.#sums, triangles, patches, strain)] : [];
+    const mesh = this.painted[0]?.mesh || this.#lit(triangles, patches, strain);
+    mesh.scale.setScalar(half);
+    mesh.position.fromArray(centre);
+    this.mesh = mesh;
+    this.object = new Group().add(mesh);
+    this.pose(0);
+  }
+
+  /** The surface for a graphics card. */
+  #lit(triangles, patches, strain) {
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', this.#positions);
     geometry.setAttribute('normal', this.#normals);
@@ -29,11 +42,7 @@ class VerticesFigure {
     geometry.setIndex(new BufferAttribute(triangles, 1));
     const mesh = new Mesh(geometry, strain.dress(new MeshLambertMaterial({ side: DoubleSide })));
     mesh.frustumCulled = false;
-    mesh.scale.setScalar(half);
-    mesh.position.fromArray(centre);
-    this.mesh = mesh;
-    this.object = new Group().add(mesh);
-    this.pose(0);
+    return mesh;
   }
 
   ready(frame) {
@@ -70,6 +79,7 @@ class VerticesFigure {
       sums[b] += x; sums[b + 1] += y; sums[b + 2] += z;
       sums[c] += x; sums[c + 1] += y; sums[c + 2] += z;
     }
+    if (this.painted.length) return;
     const normals = this.#normals.array;
     for (let i = 0; i < sums.length; i += 3) {
       const scale = 127 / (Math.hypot(sums[i], sums[i + 1], sums[i + 2]) || 1);

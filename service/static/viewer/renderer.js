@@ -4,6 +4,7 @@
 import { WebGLRenderer } from 'three';
 
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
+let software = null;
 const FINEST = 2; // pixels to a CSS pixel; more is not seen
 
 export function rendererOn(canvas) {
@@ -13,7 +14,13 @@ export function rendererOn(canvas) {
   return renderer;
 }
 
-function drawnBySoftware() {
+/** Whether this machine draws by its processor. */
+export function drawnBySoftware() {
+  software ??= softwareDraws();
+  return software;
+}
+
+function softwareDraws() {
   const gl = document.createElement('canvas').getContext('webgl2');
   if (!gl) return false; // the renderer itself will say what is missing
   const names = gl.getExtension('WEBGL_debug_renderer_info');

@@ -1,17 +1,18 @@
 // The 3D view: camera, light, floor and one figure, at one moment or at two side by side. Draws only when something changed.
 
-import { DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3 } from 'three';
+import { PerspectiveCamera, Scene, Vector3 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { onResize, onTheme, styled } from './dom.js';
 import { gltfFigure } from './figure_gltf.js';
 import { verticesFigure } from './figure_vertices.js';
 import { Floor } from './floor.js';
+import { Light } from './light.js';
 import { rendererOn } from './renderer.js';
 import { Strain } from './strain.js';
 
 export class Stage {
   #renderer; #scene = new Scene(); #camera = new PerspectiveCamera(32, 1, 0.01, 1000); #orbit; #floor = new Floor();
-  #key = new DirectionalLight(0xfff4e6, 1.7); #rim = new DirectionalLight(0xcfe0ff, 0.9); #asked = false;
+  #light = new Light(); #asked = false;
   #middle = new Vector3(); #last = new Vector3(); #step = new Vector3(); #moments = []; #size = { width: 1, height: 1 };
 
   constructor(canvas) {
@@ -20,8 +21,7 @@ export class Stage {
     this.strain = new Strain();
     this.following = true;
     this.#renderer = rendererOn(canvas);
-    this.#scene.add(new HemisphereLight(0xffffff, 0xb5aa9a, 1.9), this.#key, this.#rim, this.#camera, this.#floor.object);
-    this.#scene.add(this.#key.target, this.#rim.target);
+    this.#scene.add(this.#light.object, this.#camera, this.#floor.object);
     this.#orbit = new OrbitControls(this.#camera, canvas);
     this.#orbit.enableDamping = false;
     this.#orbit.addEventListener('change', () => this.draw());
@@ -41,13 +41,13 @@ export class Stage {
     this.clear();
     this.strain = strain;
     this.figure = figure;
-    this.#scene.add(figure.object);
+    this.#scene.add(figure.object, ...figure.painted.map(({ mesh }) => mesh).filter((mesh) => !mesh.parent));
     this.reframe();
   }
 
   clear() {
     if (!this.figure) return;
-    this.#scene.remove(this.figure.object);
+    this.#scene.remove(this.figure.object, ...this.figure.painted.map(({ mesh }) => mesh));
     this.figure.dispose();
     this.strain.dispose();
     this.figure = null;
@@ -133,11 +133,16 @@ export class Stage {
     }
     const { target } = this.#orbit;
     this.#floor.follow(target, this.#middle);
-    // The key light stands over the viewer's left shoulder, so that no side of the figure is ever left in the dark.
-    this.#key.target.position.copy(target);
-    this.#key.position.set(-0.5, 0.9, 0.6).applyQuaternion(this.#camera.quaternion).add(target);
-    this.#rim.target.position.copy(target);
-    this.#rim.position.set(0.9, 0.5, -0.8).applyQuaternion(this.#camera.quaternion).add(target);
+    this.#light.follow(this.#camera, target);
+    this.#paint();
+  }
+
+  /** Work out here what a machine without a graphics card had better not be asked for. */
+  #paint() {
+    if (!this.figure?.painted.length) return;
+    this.#camera.updateMatrixWorld();
+    const light = this.#light.parts;
+    for (const painted of this.figure.painted) painted.paint(this.#camera, light);
   }
 
   #follow() {
