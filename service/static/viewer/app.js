@@ -74,9 +74,9 @@ async function openAnimation(animation) {
 
 /** A segmentation in any state: wait until it is over, then show it. */
 async function follow(id, signal) {
-  import('./stage.js'); // needed soon: fetched while we wait
   $('waiting-cancel').onclick = () => api.cancel(id).catch(() => {}).finally(() => { history.pushState(null, '', '/'); route(); });
   status = await finished(id, (now) => {
+    if (now.status === 'running') import('./stage.js'); // needed soon: fetched while we wait
     if (now.name) $('waiting-name').textContent = now.name;
     statusProgress(now);
   }, signal);

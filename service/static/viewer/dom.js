@@ -41,6 +41,14 @@ export function onceAFrame(action) {
   };
 }
 
+/** Resolves once the screen shows what the page is now; in a tab that nobody sees, soon. */
+export function painted() {
+  return new Promise((done) => {
+    requestAnimationFrame(() => setTimeout(done));
+    setTimeout(done, 200);
+  });
+}
+
 /** Scroll a list, and nothing around it, until a row of it is seen. The list is its rows' offset parent. */
 export function inView(list, row) {
   const { scrollTop, clientHeight } = list;

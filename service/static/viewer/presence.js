@@ -1,7 +1,7 @@
 // The figure on stage, at the moment: it is fetched, posed, coloured, and waited for where a part is still on its way.
 
 import * as api from './api.js';
-import { $ } from './dom.js';
+import { $, painted } from './dom.js';
 import { colourOf } from './palette.js';
 
 const LATE = 250; // ms after which a wait for blocks is said
@@ -28,6 +28,7 @@ export class Presence {
   async enter(id, asked = api.viewer(id)) {
     try {
       this.tell('Loading the figure …');
+      await painted(); // all else is to be seen before the drawing of the figure keeps the page busy
       const [viewer, { Stage }] = await Promise.all([asked, import('./stage.js')]);
       if (this.#signal.aborted) return;
       stage ||= new Stage($('figure'));
