@@ -36,7 +36,7 @@ class Coding:
     ) -> UInt16[np.ndarray, "columns frames"]:
         """The codes of values ≥ 0, written into `out` where it is given; larger values never have smaller codes."""
         codes = np.empty(values.shape, np.uint16) if out is None else out
-        kernels.encode(values.view(np.int32), self._lowest, codes)
+        kernels.encode(values.view(np.int32), self.lowest, codes)
         return codes
 
     def read(
@@ -54,11 +54,11 @@ class Coding:
         Returns the largest value, and how many are above their column's noise.
         """
         bits, limits = values.view(np.int32), noise.view(np.int32)
-        largest, above = kernels.read_tile(bits, limits, self._lowest, np.int32(floor), out, histogram)
+        largest, above = kernels.read_tile(bits, values.shape[1], limits, self.lowest, np.int32(floor), out, histogram)
         return float(np.int32(largest).view(np.float32)), int(above)
 
     @property
-    def _lowest(self) -> np.int32:
+    def lowest(self) -> np.int32:
         """The leading bits of 2⁻¹² / gain: a power of two moves the exponent alone."""
         return np.int32(LOWEST - int(np.log2(self.gain)) * 2 ** (23 - SHIFT))
 

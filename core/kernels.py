@@ -37,9 +37,9 @@ def encode(tile: Bits, lowest: np.int32, codes: Codes) -> None:
 
 @njit(nogil=True, cache=True)
 def read_tile(
-    tile: Bits, noise: Bits, lowest: np.int32, floor: np.int32, codes: Codes, histogram: Sums
+    tile: Bits, frames: int, noise: Bits, lowest: np.int32, floor: np.int32, codes: Codes, histogram: Sums
 ) -> tuple[int, int]:
-    """Encode a tile and count its codes from `floor` on, all below as 0; its largest value, and how many are noise's.
+    """Encode the first frames of a tile and count their codes from `floor` on, all below as 0.
 
     Values ≥ 0 are given as the integers that their bits spell, which rise with them: the maximum of integers
     becomes one instruction, that of floats, for the sake of NaN, does not. Counting one by one is what costs, and
@@ -47,10 +47,10 @@ def read_tile(
     of values above their row's noise.
     """
     largest, above, counted = 0, 0, 0
-    scratch = np.empty(tile.shape[1], np.uint16)
+    scratch = np.empty(frames, np.uint16)
     keep = codes.shape[0] > 0
     for t in range(tile.shape[0]):
-        row, limit = tile[t], noise[t]
+        row, limit = tile[t][:frames], noise[t]
         top, more = np.int32(0), np.int32(0)
         for f in range(row.size):
             top = max(top, row[f])
@@ -65,7 +65,7 @@ def read_tile(
                 if scratch[f] >= floor:
                     histogram[scratch[f]] += 1
                     counted += 1
-    histogram[0] += tile.size - counted
+    histogram[0] += tile.shape[0] * frames - counted
     return largest, above
 
 

@@ -11,6 +11,7 @@ from core.blocks import Block
 from core.body import Body
 from core.buffers import Buffers
 from core.codes import Coding
+from core.descriptors.kernels import WIDTH
 from core.descriptors.strain import TriangleStrain, UnreadableError
 from core.drawing import draw
 from core.histograms import Histograms
@@ -53,14 +54,9 @@ class Surveyor:
         """Draw the block, and read every tile of its strain while it is in the cache."""
         vertices = draw(self.animation, block, checked=self._checks)
         means, histogram = self.body.patches.empty(len(vertices)), self.histograms.take()
-        largest, above = 0.0, 0
         kept = self.place(block) if self.keeps(block) else np.empty((0, len(vertices)), np.uint16)
         try:
-            for columns, tile in self.body.surface.tiles(vertices):
-                if self.body.patches.patches:
-                    self.body.patches.add(columns, tile, means)
-                most, more = self.coding.read(tile, self.noise[columns], self.floor, kept[columns], histogram)
-                largest, above = max(largest, most), above + more
+            largest, above = self._read(vertices, means, kept, histogram)
         except UnreadableError:
             draw(self.animation, block)  # says where
             raise
@@ -70,6 +66,22 @@ class Surveyor:
         if self.projections is not None:
             described = (self.projections[0].project(means.T), self.projections[1].project(apart))
         return Page(largest, above, float(np.abs(apart).max(initial=0)), described)
+
+    def _read(
+        self, vertices: np.ndarray, means: np.ndarray, kept: np.ndarray, histogram: np.ndarray
+    ) -> tuple[float, int]:
+        """The largest value and how many are above noise: in one call for strain, else tile by tile."""
+        surface, patches = self.body.surface, self.body.patches
+        if isinstance(surface, TriangleStrain) and len(vertices) <= WIDTH:
+            coding = self.coding.lowest, np.int32(self.floor)
+            return surface.read(vertices, self.noise, coding, (patches, means), kept, histogram)
+        largest, above = 0.0, 0
+        for columns, tile in surface.tiles(vertices):
+            if patches.patches:
+                patches.add(columns, tile, means)
+            most, more = self.coding.read(tile, self.noise[columns], self.floor, kept[columns], histogram)
+            largest, above = max(largest, most), above + more
+        return largest, above
 
     @property
     def _checks(self) -> bool:

@@ -206,7 +206,7 @@ def add_weighted(tile: Floats, weights: Floats, groups: Indices, sums: Floats) -
     """sums[groups[t], f] += weights[t] tile[t, f], one column after another."""
     for t in range(tile.shape[0]):
         row, weight = sums[groups[t]], weights[t]
-        for f in range(tile.shape[1]):
+        for f in range(row.size):
             row[f] += weight * tile[t, f]
 
 

@@ -13,12 +13,14 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from jaxtyping import Float, Float32, Float64, Int
+from jaxtyping import Float, Float32, Float64, Int, UInt16
 
 from core.buffers import Buffers
 from core.descriptors import kernels
 from core.descriptors.gathering.kernels import gather
 from core.descriptors.kernels import WIDTH
+from core.descriptors.patch_means import PatchMeans
+from core.descriptors.reading.kernels import UNREADABLE, read_block
 
 MEASURES = {"log": kernels.LOG, "biot": kernels.BIOT, "max": kernels.MAX}
 """`log`: sqrt(ln²σ1 + ln²σ2) (Hencky); `biot`: sqrt((σ1−1)² + (σ2−1)²); `max`: max(|σ1−1|, |σ2−1|). σ = sqrt(λ)."""
@@ -26,6 +28,9 @@ MEASURES = {"log": kernels.LOG, "biot": kernels.BIOT, "max": kernels.MAX}
 TILE = 1024
 ROUNDING = 2.0**-20
 """Relative error of the edges of a triangle whose corners were rounded to float32, with room for how they were made."""
+
+
+UNREADABLE_SAYS = "a coordinate is no number, or too large for one"
 
 
 class UnreadableError(ValueError):
@@ -42,6 +47,9 @@ class Tile:
     members: Int[np.ndarray, "v"]
     corners: Int[np.ndarray, "n 3"]
     shapes: Float32[np.ndarray, "n 3"]
+
+
+Packed = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -113,12 +121,49 @@ class TriangleStrain:
                 gather(block[start : start + width], part.members, own)
                 own[:, :, width:] = own[:, :, width - 1 : width]  # frames that are not there repeat the last
                 if not _readable(own):
-                    raise UnreadableError("a coordinate is no number, or too large for one")
+                    raise UnreadableError(UNREADABLE_SAYS)
                 lines, factors = own.reshape(-1, 3 * WIDTH), scale[start : start + WIDTH]
                 kernels.strain_tile(lines, part.corners, part.shapes, factors, self.measure, scratch, out)
                 if frames != WIDTH:
                     pieces.append(out[:, :width].copy())
             yield slice(number * TILE, number * TILE + len(out)), np.concatenate(pieces, axis=1) if pieces else out
+
+    def read(
+        self,
+        block: Float32[np.ndarray, "frames V 3"],
+        noise: Float32[np.ndarray, "columns"],
+        coding: tuple[np.int32, np.int32],
+        means: tuple[PatchMeans, Float32[np.ndarray, "patches frames"]],
+        codes: UInt16[np.ndarray, "kept frames"],
+        histogram: Int[np.ndarray, "codes"],
+    ) -> tuple[float, int]:
+        """At most `WIDTH` frames of `tiles` at once: adds to means and counts, and writes codes where there are rows.
+
+        `coding` is the lowest code's leading bits and the code from which on codes are counted. Returns the largest
+        strain and how many are above noise. Raises `UnreadableError`.
+        """
+        packed, (patches, sums) = self._packed, means
+        rows = self._buffers.empty((self._most_members, 3, WIDTH), np.float32)
+        scratch, tile = self._buffers.empty((3 * WIDTH,), np.float32), self._buffers.empty((TILE, WIDTH), np.float32)
+        largest, above = read_block(
+            block,
+            *packed,
+            _to_width(self._scale(block)),
+            self.measure,
+            noise.view(np.int32),
+            *coding,
+            patches.patch,
+            patches.weight,
+            rows,
+            scratch,
+            tile,
+            codes,
+            histogram,
+            sums,
+        )
+        if above == UNREADABLE:
+            raise UnreadableError(UNREADABLE_SAYS)
+        return float(np.int32(largest).view(np.float32)), int(above)
 
     def thinned(self, most: int) -> "TriangleStrain":
         """At most so many of the tiles, evenly spread and numbered anew: enough for a look.
@@ -131,6 +176,14 @@ class TriangleStrain:
     def noise(self, reach: float) -> Float32[np.ndarray, "columns"]:
         """The strain that rounding alone gives each triangle where coordinates go up to `reach`."""
         return (ROUNDING * reach * self.thinness).astype(np.float32)
+
+    @cached_property
+    def _packed(self) -> Packed:
+        """The parts, end to end: members and where those of each part begin, corners and where, shapes."""
+        members, corners = [part.members for part in self.parts], [part.corners for part in self.parts]
+        ends = [np.cumsum([0, *map(len, pieces)]) for pieces in (members, corners)]
+        shapes = np.concatenate([part.shapes for part in self.parts])
+        return np.concatenate(members), ends[0], np.concatenate(corners), ends[1], shapes
 
     @cached_property
     def _buffers(self) -> Buffers:

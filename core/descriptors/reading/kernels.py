@@ -1,0 +1,67 @@
+"""The whole pass over a block of vertices in one compiled call: strain, codes, counts and means, tile after tile.
+
+Between tiles the interpreter would cost as much as a tenth of their arithmetic, and what one step leaves in the
+cache the next finds there.
+"""
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from core.descriptors.gathering.kernels import gather
+from core.descriptors.kernels import FAST, REACH, WIDTH, Floats, Indices, add_weighted, largest_bits, strain_tile
+from core.kernels import Codes, Sums, read_tile
+
+UNREADABLE = -1
+
+_REACH_BITS = int(REACH.view(np.int32))
+
+
+@njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
+def read_block(
+    vertices: Floats,
+    members: Indices,
+    member_ends: NDArray[np.int64],
+    corners: Indices,
+    ends: NDArray[np.int64],
+    shapes: Floats,
+    scale: Floats,
+    measure: int,
+    noise: Indices,
+    lowest: np.int32,
+    floor: np.int32,
+    groups: Indices,
+    weights: Floats,
+    rows: Floats,
+    scratch: Floats,
+    tile: Floats,
+    codes: Codes,
+    histogram: Sums,
+    means: Floats,
+) -> tuple[int, int]:
+    """Up to `WIDTH` frames: what `strain_tile`, `read_tile` and `add_weighted` do of every tile.
+
+    Tile i has the members from `member_ends[i]` to `member_ends[i + 1]`, and the triangles likewise by `ends`. `codes`
+    has no rows where none are kept, `means` none where there are no patches. Returns the bits of the largest strain
+    and how many strains are above noise, `UNREADABLE` where a corner is no number or beyond `REACH`.
+    """
+    frames = vertices.shape[0]
+    largest, above = 0, 0
+    for i in range(ends.size - 1):
+        own = members[member_ends[i] : member_ends[i + 1]]
+        start, end = ends[i], ends[i + 1]
+        gathered = rows[: own.size]
+        gather(vertices, own, gathered)
+        for v in range(own.size if frames < WIDTH else 0):  # frames that are not there repeat the last
+            for axis in range(3):
+                gathered[v, axis, frames:] = gathered[v, axis, frames - 1]
+        if largest_bits(gathered.reshape(-1).view(np.int32)) > _REACH_BITS:
+            return largest, UNREADABLE
+        lines, strain = gathered.reshape((own.size, 3 * WIDTH)), tile[: end - start]
+        strain_tile(lines, corners[start:end], shapes[start:end], scale, measure, scratch, strain)
+        if means.shape[0] > 0:
+            add_weighted(strain, weights[start:end], groups[start:end], means)
+        bits, kept = strain.view(np.int32), codes[start:end]
+        most, more = read_tile(bits, frames, noise[start:end], lowest, floor, kept, histogram)
+        largest, above = max(largest, most), above + more
+    return largest, above
