@@ -7,6 +7,7 @@ result: it is part of every segmentation's id, so an old result never answers fo
 
 import json
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
@@ -83,7 +84,7 @@ class Parameters(BaseModel):
                 parameter=unknown[0],
             )
         try:
-            parameters = cls.model_validate({name: _value(text) for name, text in given.items()})
+            parameters = cls.model_validate({name: _value(name, text) for name, text in given.items()})
         except ValidationError as refused:
             first = refused.errors()[0]
             name = str(first["loc"][0])
@@ -117,15 +118,19 @@ class Parameters(BaseModel):
         return json.dumps(self.model_dump(), sort_keys=True, separators=(",", ":"), ensure_ascii=False)
 
 
-def _value(given: Any) -> Any:
-    """A query string says `3` where JSON says 3: numbers and booleans are read, all else is a name."""
+def _value(name: str, given: Any) -> Any:
+    """A query string says `3` where JSON says 3: numbers and booleans are read, all else is a name.
+
+    Python counts true as 1, so where no boolean is asked for it is a word like any other, and nobody's frame rate.
+    """
+    value = given
     if isinstance(given, str):
-        try:
+        with suppress(ValueError):
             parsed = json.loads(given)
-        except ValueError:
-            return given
-        return parsed if isinstance(parsed, (int, float)) else given
-    return given
+            value = parsed if isinstance(parsed, (int, float)) else given
+    if isinstance(value, bool) and Parameters.model_fields[name].annotation is not bool:
+        return given if isinstance(given, str) else json.dumps(given)
+    return value
 
 
 def names(weight: Literal["heavy", "light"]) -> set[str]:

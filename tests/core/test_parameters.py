@@ -30,3 +30,19 @@ def test_a_number_out_of_range_is_refused(given: dict[str, str]) -> None:
     with pytest.raises(ParameterError) as refused:
         Parameters.parse(given)
     assert refused.value.where["parameter"] == next(iter(given))
+
+
+@pytest.mark.parametrize("truth", [True, "true"])
+@pytest.mark.parametrize("name", ["fps", "motions", "seed", "rest", "bins", "start"])
+def test_a_truth_is_no_number(name: str, truth: object) -> None:
+    """Python counts true as 1; one frame a second was never asked for."""
+    with pytest.raises(ParameterError) as refused:
+        Parameters.parse({name: truth})
+    assert refused.value.where["parameter"] == name
+
+
+@pytest.mark.parametrize("truth", [True, "true"])
+def test_a_truth_is_one_where_it_is_asked_for(truth: object) -> None:
+    """And a take may be called by that word."""
+    assert Parameters.parse({"trim": truth}).trim is True
+    assert Parameters.parse({"take": truth}).take == "true"
