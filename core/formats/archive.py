@@ -108,6 +108,8 @@ class Archive:
             name = info.filename.removesuffix(".npy")
             if info.flag_bits & ENCRYPTED:
                 raise malformed("is encrypted")
+            if name.startswith("__MACOSX/"):
+                continue  # what a Mac adds of its own
             if name in members or "/" in name or "\\" in name or ".." in name:
                 raise malformed(f"has a member {info.filename[:80]!r}, a path or there twice")
             if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):

@@ -105,6 +105,8 @@ def _bvh_header(file: BinaryIO, name: str, limits: Limits) -> Header:
 def _zip_header(file: BinaryIO, name: str, limits: Limits) -> Header:
     """That of its model, by its first megabytes, or the number of its shapes."""
     files = ZipFiles(file, limits)
+    if files.are_arrays():
+        return _npz_header(file, name, limits)
     model = files.model()
     if model is None:
         frames = len(files.shapes())

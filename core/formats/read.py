@@ -40,6 +40,8 @@ def read_animation(parts: Mapping[str, Part], parameters: Parameters, limits: Li
     kind = sniff(bytes(data[:SNIFFED]))
     if kind == "zip":
         files = ZipFiles(cast("BinaryIO", BufferFile(data)), limits)
+        if files.are_arrays():
+            return read_npz(data, parameters, limits, scratch)
         name = files.model()
         if name is None:
             return read_shapes(files, data, parameters, limits, scratch)

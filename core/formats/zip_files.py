@@ -28,6 +28,13 @@ class ZipFiles(Archive):
         with told_as_zip():
             super().__init__(file, limits)
 
+    def are_arrays(self) -> bool:
+        """Whether it is an NPZ all the same, whose first member is something else, such as a note."""
+        names = [name.lower() for name in self.members]
+        return not any(name.endswith((*MODELS, *SHAPES)) for name in names) and any(
+            name.endswith(".npy") for name in names
+        )
+
     def model(self) -> str | None:
         """The one glTF, GLB or BVH; None where there are shapes instead. Raises where it is not one, or nothing."""
         models = [name for name in self.members if name.lower().endswith(MODELS)]

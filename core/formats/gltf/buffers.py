@@ -69,13 +69,16 @@ class Buffers:
         raise buffer.refusal("The buffer has neither a URI nor a binary chunk.", "out-of-bounds")
 
     def _inline(self, uri: str, buffer: Entry) -> memoryview:
-        """A base64 data: URI (RFC 2397), its size known from its length before it is decoded."""
+        """A base64 data: URI (RFC 2397), its size known from its length before it is decoded.
+
+        `+`, `/` and `=` may be written as %2B, %2F and %3D, as anything in a URI.
+        """
         head, comma, text = uri.partition(",")
         if not comma or not head.lower().endswith(";base64"):
             raise buffer.refusal("The data: URI is not base64.", "invalid-data-uri", "uri")
         self._document.budget.spend(len(text) * 3 // 4)
         try:
-            return memoryview(base64.b64decode(text, validate=True))
+            return memoryview(base64.b64decode(unquote(text) if "%" in text else text, validate=True))
         except (binascii.Error, ValueError):
             raise buffer.refusal("The data: URI is not valid base64.", "invalid-data-uri", "uri") from None
 

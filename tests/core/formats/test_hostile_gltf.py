@@ -4,6 +4,7 @@ import json
 import struct
 from collections.abc import Callable
 from typing import Any
+from urllib.parse import quote
 
 import numpy as np
 import pytest
@@ -505,6 +506,19 @@ def test_odd_containers_are_read() -> None:
     more = chunks((b"JSON", TEXT), (b"BIN\0", BINARY), (b"XTRA", b"?"))
     for data, noted in ((marked, set()), (more, set()), (WHOLE + b"trailing", {"extra-data"})):
         assert codes(opened(data)) == noted
+
+
+def test_base64_may_be_written_as_a_uri_writes_it() -> None:
+    """%2B, %2F and %3D are +, / and = (RFC 3986, section 2.1)."""
+    model = moving_square()
+    model.binary.extend(bytes([251, 255, 191, 0]))  # a buffer may be longer than what is used of it
+    plain = model.gltf()
+    document = json.loads(plain)
+    head, _, text = document["buffers"][0]["uri"].partition(",")
+    document["buffers"][0]["uri"] = f"{head},{quote(text, safe='')}"
+    assert "%2F" in document["buffers"][0]["uri"]
+    written = json.dumps(document).encode()
+    np.testing.assert_array_equal(opened(written).vertices(0, 31), opened(plain).vertices(0, 31))
 
 
 def test_joints_beyond_the_skin_with_weight_0_are_accepted() -> None:

@@ -68,6 +68,18 @@ def test_numbered_shapes_are_frames(kind: str) -> None:
     assert read_header(io.BytesIO(data), "x.zip", Limits()).takes[0].frames == 12
 
 
+@pytest.mark.parametrize("beside", ["README.txt", "__MACOSX/._vertices.npy", "about.json"])
+def test_arrays_behind_another_file_are_an_archive(beside: str) -> None:
+    """Zipped by hand, a note may come first; what the file is, its directory says."""
+    with zipfile.ZipFile(io.BytesIO(npz())) as file:
+        arrays = {name: file.read(name) for name in file.namelist()}
+    data = zipped({beside: b"{}", **arrays})
+    animation, plain = opened(data), opened(npz())
+    np.testing.assert_array_equal(animation.vertices(0, plain.frames), plain.vertices(0, plain.frames))
+    header = read_header(io.BytesIO(data), "x.npz", Limits())
+    assert (header.format, header.vertices) == ("npz", plain.vertex_count)
+
+
 def test_frames_of_another_mesh_are_refused_by_name() -> None:
     """The first frame that differs, in number or in order."""
     files = shapes("obj")
