@@ -5,13 +5,14 @@ import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { bones } from './bones.js';
 import { inOrder } from './locality.js';
 import { Painted } from './painted.js';
-import { drawnBySoftware } from './renderer.js';
+import { drawnBySoftware } from './software.js';
 import { Skinning } from './skinning.js';
 
-export async function gltfFigure(viewer, strain, onProgress) {
-  const gltf = await new GLTFLoader().loadAsync(viewer.model, (event) => event.total && onProgress(event.loaded / event.total));
-  return new GltfFigure(gltf, viewer, strain);
-}
+/** Ask for the file; what comes is for `gltfFigure`. */
+export const askGltf = (viewer, onProgress) =>
+  new GLTFLoader().loadAsync(viewer.model, (event) => event.total && onProgress(event.loaded / event.total));
+
+export const gltfFigure = (viewer, gltf, strain) => new GltfFigure(gltf, viewer, strain);
 
 class GltfFigure {
   #mixer; #action; #clip; #viewer; #points = []; #bones = null; #skinnings = []; #at = new Vector3();

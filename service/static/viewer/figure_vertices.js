@@ -4,15 +4,19 @@ import { Box3, BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshLam
 import { BlockFile } from './blocks.js';
 import { inOrder } from './locality.js';
 import { Painted } from './painted.js';
-import { drawnBySoftware } from './renderer.js';
+import { drawnBySoftware } from './software.js';
 
 const LARGEST = 32767;
 
-export async function verticesFigure(viewer, strain) {
+/** Ask for the file and what is wanted of it first; what comes is for `verticesFigure`. */
+export async function askVertices(viewer) {
   const file = await BlockFile.open(viewer.model, 'int16');
   const [triangles, patches] = await Promise.all([file.array('triangles'), file.array('patches'), file.fetch(0)]);
-  return new VerticesFigure(file, inOrder(triangles), patches, strain);
+  return { file, triangles, patches };
 }
+
+export const verticesFigure = (viewer, { file, triangles, patches }, strain) =>
+  new VerticesFigure(file, inOrder(triangles), patches, strain);
 
 class VerticesFigure {
   #file; #triangles; #positions; #normals; #frame = -1; #sums;

@@ -3,6 +3,7 @@
 import * as api from './api.js';
 import { $, painted } from './dom.js';
 import { colourOf } from './palette.js';
+import { askGraphics } from './software.js';
 
 const LATE = 250; // ms after which a wait for blocks is said
 const SOON = 1500; // ms until it is asked again whether the figure is prepared
@@ -29,10 +30,13 @@ export class Presence {
     try {
       this.tell('Loading the figure …');
       await painted(); // all else is to be seen before the drawing of the figure keeps the page busy
+      const graphics = askGraphics(); // takes long, and beside all else
       const [viewer, { Stage }] = await Promise.all([asked, import('./stage.js')]);
       if (this.#signal.aborted) return;
+      const coming = Stage.ask(viewer, (share) => this.tell(`Loading the figure … ${Math.round(100 * share)} %`));
+      await graphics;
       stage ||= new Stage($('figure'));
-      await stage.show(viewer, this.#signal, (share) => this.tell(`Loading the figure … ${Math.round(100 * share)} %`));
+      await stage.show(viewer, coming, this.#signal);
       if (this.#signal.aborted) return;
       this.#here = true;
       this.tell('');

@@ -3,8 +3,8 @@
 import { PerspectiveCamera, Scene, Vector3 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { onResize, onTheme, styled } from './dom.js';
-import { gltfFigure } from './figure_gltf.js';
-import { verticesFigure } from './figure_vertices.js';
+import { askGltf, gltfFigure } from './figure_gltf.js';
+import { askVertices, verticesFigure } from './figure_vertices.js';
 import { Floor } from './floor.js';
 import { Light } from './light.js';
 import { rendererOn } from './renderer.js';
@@ -31,11 +31,18 @@ export class Stage {
     this.#fit();
   }
 
-  /** Load what the service's viewer document names, in place of what was there. */
-  async show(viewer, signal, onProgress = () => {}) {
+  /** Begin to load what the service's viewer document names: before there is a stage, which takes long to make. */
+  static ask(viewer, onProgress = () => {}) {
+    const coming = (viewer.kind === 'gltf' ? askGltf : askVertices)(viewer, onProgress);
+    coming.catch(() => {}); // said by who waits for it
+    return coming;
+  }
+
+  /** Show what was asked for by `ask`, in place of what was there. */
+  async show(viewer, coming, signal) {
     const strain = new Strain();
     const colours = viewer.strain ? strain.open(viewer.strain).catch(() => {}) : null; // the figure is worth more than its colours
-    const figure = await (viewer.kind === 'gltf' ? gltfFigure : verticesFigure)(viewer, strain, onProgress);
+    const figure = (viewer.kind === 'gltf' ? gltfFigure : verticesFigure)(viewer, await coming, strain);
     await colours;
     if (signal.aborted) return figure.dispose();
     this.clear();
