@@ -166,12 +166,17 @@ class TriangleStrain:
         return float(np.int32(largest).view(np.float32)), int(above)
 
     def thinned(self, most: int) -> "TriangleStrain":
-        """At most so many of the tiles, evenly spread and numbered anew: enough for a look.
+        """About so many of the triangles, evenly spread and packed anew: enough for a look.
 
         All of them where every frame's whole area is needed.
         """
-        step = 1 if self.scale_invariant else -(-len(self.parts) // most)
-        return replace(self, parts=self.parts[::step])
+        step = self.columns // most
+        if self.scale_invariant or step <= 1:
+            return self
+        corners = np.concatenate([part.members[part.corners[::step]] for part in self.parts])
+        shapes = np.concatenate([part.shapes[::step] for part in self.parts])
+        parts = tuple(_tile(corners[i : i + TILE], shapes[i : i + TILE]) for i in range(0, len(corners), TILE))
+        return replace(self, columns=len(corners), parts=parts)
 
     def noise(self, reach: float) -> Float32[np.ndarray, "columns"]:
         """The strain that rounding alone gives each triangle where coordinates go up to `reach`."""
