@@ -57,7 +57,7 @@ class Body:
         strain = TriangleStrain.of(rest, triangles, order, parameters.strain, parameters.scale_invariant)
         if strain.columns == 0:
             detail = "No triangle of the rest shape has area, so nothing can be strained. Send a mesh with a surface."
-            raise InvalidModel("degenerate-mesh", detail)
+            raise InvalidModel("degenerate-mesh", detail, pointer="/meshes" if animation.gltf is not None else None)
         if parameters.descriptor == "pair-distances":
             return cls(PairStrain.of(pairs), NO_PATCHES, pairs), _left_out(strain)
         surface = SURFACES[parameters.descriptor](Subject(animation, rest, strain, parameters))

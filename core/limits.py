@@ -35,8 +35,8 @@ class Limits(BaseModel):
         """No limits: `caesura segment` on one's own machine."""
         return cls(**dict.fromkeys(cls.model_fields, UNLIMITED))
 
-    def check(self, name: str, actual: float, advice: str = "") -> None:
-        """Raise `LimitExceeded` where `actual` is over the limit called `name`.
+    def check(self, name: str, actual: float, advice: str = "", pointer: str | None = None) -> None:
+        """Raise `LimitExceeded` where `actual` is over the limit called `name`; `pointer` is where in the file.
 
         Compared as given, before any conversion to int, so that 1e308 frames are refused and not wrapped.
         """
@@ -55,4 +55,5 @@ class Limits(BaseModel):
             limit=limit,
             actual=actual,
             setting=setting,
+            pointer=pointer,
         )

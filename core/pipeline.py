@@ -39,7 +39,9 @@ def analyse(
     """
     parameters = parameters or Parameters()
     if animation.frames < 2:
-        raise InvalidModel("no-motion", "The take has a single frame: nothing moves. Choose a take with a motion.")
+        place = f"/animations/{animation.take.index}" if animation.gltf is not None else None
+        detail = "The take has a single frame: nothing moves. Choose a take with a motion."
+        raise InvalidModel("no-motion", detail, pointer=place)
     with threadpool_limits(1):
         progress("rest shape", 0.0)
         rest = rest_shape(animation, parameters.rest)

@@ -14,11 +14,11 @@ class Budget:
         self._limits = limits
         self.spent = 0
 
-    def spend(self, size: int) -> None:
-        """Count `size` more bytes; raises `LimitExceeded` where that is too much."""
-        self.check(size)
+    def spend(self, size: int, pointer: str | None = None) -> None:
+        """Count `size` more bytes of what `pointer` names; raises `LimitExceeded` where that is too much."""
+        self.check(size, pointer)
         self.spent += size
 
-    def check(self, size: int) -> None:
+    def check(self, size: int, pointer: str | None = None) -> None:
         """Raise `LimitExceeded` where `size` more bytes would be too much."""
-        self._limits.check("max_decoded_bytes", self.spent + size)
+        self._limits.check("max_decoded_bytes", self.spent + size, pointer=pointer)

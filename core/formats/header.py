@@ -76,7 +76,7 @@ def _gltf_header(file: BinaryIO, kind: Format, name: str, limits: Limits) -> Hea
     root = parse_root(file.read(length), limits)
     check_extensions(root)
     found = clips(root, KeyTimes(file, start + length, root.value) if kind == "glb" else lambda _: ())
-    limits.check("max_takes", len(found))
+    limits.check("max_takes", len(found), pointer="/animations")
     vertices, triangles = size_of_scene(root)
     return Header(kind, name, tuple(_take(place, clip) for place, clip in enumerate(found)), vertices, triangles)
 

@@ -38,6 +38,7 @@ def members_by_use(archive: Archive, notices: Notices) -> dict[str, str]:
         raise InvalidModel(
             "wrong-shape",
             f"The file needs arrays `vertices` (F, V, 3) and `triangles` (T, 3); {missing[0]} is missing.",
+            pointer=f"/{missing[0]}",
         )
     extra = [name for name in archive.members if name not in found.values()]
     if extra:
@@ -67,5 +68,5 @@ def check_shapes(headers: dict[str, NpyHeader], names: dict[str, str], limits: L
             )
     if frames == 0:
         raise InvalidModel("no-motion", "The sequence has no frames; a motion needs two.", pointer="/vertices")
-    limits.check("max_vertices", vertices)
-    limits.check("max_triangles", headers["triangles"].shape[0])
+    limits.check("max_vertices", vertices, pointer="/vertices")
+    limits.check("max_triangles", headers["triangles"].shape[0], pointer="/triangles")

@@ -19,13 +19,19 @@ def stretch(parameters: Parameters, duration: float, first_key: float = 0.0) -> 
     return start, end
 
 
-def counted(limits: Limits, seconds: float, rate: float, triangles: int, nodes: int = 0) -> int:
-    """Frames of so many seconds, compared with the limits while they are still a float."""
-    limits.check("max_seconds", seconds, "Send start and end for a part of it")
+def counted(
+    limits: Limits, seconds: float, rate: float, triangles: int, nodes: int = 0, pointer: str = "/vertices"
+) -> int:
+    """Frames of so many seconds of what `pointer` names, compared with the limits while they are still a float."""
+
+    def check(name: str, actual: float, advice: str) -> None:
+        limits.check(name, actual, advice, pointer)
+
+    check("max_seconds", seconds, "Send start and end for a part of it")
     frames = frame_count(seconds, rate)
-    limits.check("max_frames", frames, "Send a lower fps, or start and end for a part of it")
-    limits.check(
+    check("max_frames", frames, "Send a lower fps, or start and end for a part of it")
+    check(
         "max_triangle_frames", frames * triangles, "Send a lower fps, start and end for a part of it, or a lighter mesh"
     )
-    limits.check("max_node_frames", frames * nodes, "Send a lower fps, start and end for a part of it, or fewer nodes")
+    check("max_node_frames", frames * nodes, "Send a lower fps, start and end for a part of it, or fewer nodes")
     return int(frames)

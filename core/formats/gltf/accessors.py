@@ -52,7 +52,7 @@ class Accessors:
         if raw.dtype.kind == "f":
             values = np.ascontiguousarray(raw, np.float32)
         else:
-            self._document.budget.spend(raw.size * 4)
+            self._document.budget.spend(raw.size * 4, layout.entry.pointer)
             values = raw.astype(np.float32)
             if layout.normalized:
                 values = np.maximum(values / np.float32(np.iinfo(raw.dtype).max), np.float32(-1))
@@ -70,13 +70,13 @@ class Accessors:
         entry = layout.entry
         size = layout.count * layout.width * layout.dtype.itemsize
         if layout.unpack is not None:
-            self._document.budget.spend(size)
+            self._document.budget.spend(size, entry.pointer)
             return layout.unpack(layout)
         if "bufferView" in entry:
             values = self._strided(layout, *self._place(entry, layout.count, layout.dtype, layout.width, vertex_data))
-            self._document.budget.spend(size)
+            self._document.budget.spend(size, entry.pointer)
         else:
-            self._document.budget.spend(size)
+            self._document.budget.spend(size, entry.pointer)
             values = np.zeros((layout.count, layout.width), layout.dtype)
         sparse = entry.entry("sparse")
         return values if sparse is None else self._replaced(values, layout, sparse)
@@ -112,7 +112,7 @@ class Accessors:
         )
         if "bufferView" not in entry:
             # Zeros of any number: refused before their count is compared with that of anything else.
-            self._document.budget.check(layout.count * layout.width * layout.dtype.itemsize)
+            self._document.budget.check(layout.count * layout.width * layout.dtype.itemsize, entry.pointer)
         return layout
 
     def _place(
@@ -160,7 +160,7 @@ class Accessors:
             raise sparse.refusal(f"{name} is missing.", name=name)
         dtype = dtype or _component(entry, (5121, 5123, 5125))
         data, offset, stride = self._place(entry, count, dtype, width, False)
-        self._document.budget.spend(count * width * dtype.itemsize)
+        self._document.budget.spend(count * width * dtype.itemsize, sparse.pointer)
         return (
             np.ndarray((count, width), dtype, data, offset, (stride, dtype.itemsize))
             if count

@@ -31,7 +31,7 @@ class Buffers:
         if packed is None:
             return self._piece(view)
         if index not in self._decoded:
-            self._document.budget.spend(decoded_size(view, packed))
+            self._document.budget.spend(decoded_size(view, packed), packed.pointer)
             self._decoded[index] = decode(packed, self._piece(packed))
         return self._decoded[index]
 
@@ -76,7 +76,7 @@ class Buffers:
         head, comma, text = uri.partition(",")
         if not comma or not head.lower().endswith(";base64"):
             raise buffer.refusal("The data: URI is not base64.", "invalid-data-uri", "uri")
-        self._document.budget.spend(len(text) * 3 // 4)
+        self._document.budget.spend(len(text) * 3 // 4, f"{buffer.pointer}/uri")
         try:
             return memoryview(base64.b64decode(unquote(text) if "%" in text else text, validate=True))
         except (binascii.Error, ValueError):

@@ -45,7 +45,7 @@ def one_take(
 ) -> Course:
     """A take, or the part of it that the parameters name."""
     start, end = stretch(parameters, tracks.duration, tracks.first)
-    frames = counted(limits, end - start, rate, size.triangles, size.nodes)
+    frames = counted(limits, end - start, rate, size.triangles, size.nodes, f"/animations/{chosen.index}")
     take = Take(chosen.index, chosen.name, tracks.duration, frames, rate)
     return Course(pose(tracks, start), frames, start, take)
 
@@ -71,7 +71,7 @@ def all_takes(
     if from_frame >= until:
         detail = f"Nothing is left from {parameters.start:g} s on: all takes are {sum(lengths) / rate:g} s long."
         raise ParameterError("outside-take", detail, parameter="start")
-    counted(limits, (until - 1) / rate, rate, size.triangles, size.nodes)
+    counted(limits, (until - 1) / rate, rate, size.triangles, size.nodes, "/animations")
     frames = int(until) - from_frame
     first = [0]
     for length in lengths:

@@ -42,7 +42,7 @@ class Document:
     @cached_property
     def nodes(self) -> list[Entry]:
         """All nodes, of any scene."""
-        self.limits.check("max_nodes", len(self.root.values("nodes")))
+        self.limits.check("max_nodes", len(self.root.values("nodes")), pointer="/nodes")
         return self.root.entries("nodes")
 
     @cached_property
@@ -58,7 +58,7 @@ class Document:
     @cached_property
     def animations(self) -> list[Entry]:
         """All animations, the takes."""
-        self.limits.check("max_takes", len(self.root.values("animations")))
+        self.limits.check("max_takes", len(self.root.values("animations")), pointer="/animations")
         return self.root.entries("animations")
 
     @cached_property

@@ -63,7 +63,9 @@ def read_figure(document: Document, accessors: Accessors, graph: NodeGraph, node
         return None
     if not any(found and instances.count for _, _, found, instances in drawn):
         raise InvalidModel(
-            "no-mesh", "The meshes of the file have no triangles. Export the surface, not points or lines."
+            "no-mesh",
+            "The meshes of the file have no triangles. Export the surface, not points or lines.",
+            pointer="/meshes",
         )
     body = _Body(document, accessors)
     for node, entry, found, instances in drawn:
@@ -103,16 +105,17 @@ def _drawn(
         mesh = entry.index("mesh", len(document.meshes), "meshes")
         instances = read_instances(document, accessors, entry)
         times = instances.count
-        document.limits.check("max_primitives", primitives + times * len(document.meshes[mesh].values("primitives")))
+        at, total = entry.pointer, primitives + times * len(document.meshes[mesh].values("primitives"))
+        document.limits.check("max_primitives", total, pointer=at)
         if mesh not in known:
             known[mesh] = outlines(document, accessors, document.meshes[mesh])
         primitives += times * len(known[mesh])
         vertices += times * sum(outline.vertices for outline in known[mesh])
         triangles += times * sum(outline.triangles for outline in known[mesh])
         moved += times * sum(outline.vertices * len(outline.targets) for outline in known[mesh])
-        document.limits.check("max_vertices", vertices)
-        document.limits.check("max_triangles", triangles)
-        document.limits.check("max_target_vertices", moved)
+        document.limits.check("max_vertices", vertices, pointer=at)
+        document.limits.check("max_triangles", triangles, pointer=at)
+        document.limits.check("max_target_vertices", moved, pointer=at)
         found.append((node, entry, known[mesh], instances))
     return found
 

@@ -47,15 +47,23 @@ class Primitive:
 
 
 def outlines(document: Document, accessors: Accessors, mesh: Entry) -> list[Outline]:
-    """The primitives of a mesh that have triangles, in order; the others are noted and left out."""
+    """The primitives of a mesh that have triangles, in order; the others are noted and left out.
+
+    Raises `invalid-gltf` where their morph targets differ in number: the weights of a mesh are those of all of them.
+    """
     found = (_outline(document, accessors, primitive) for primitive in mesh.entries("primitives"))
-    return [outline for outline in found if outline is not None]
+    kept = [outline for outline in found if outline is not None]
+    counts = {len(outline.targets) for outline in kept} - {0}  # what has none simply stays as it is
+    if len(counts) > 1:
+        told = " and ".join(map(str, sorted(counts)))
+        raise mesh.refusal(f"The primitives of a mesh need as many morph targets each, not {told}.", name="primitives")
+    return kept
 
 
 def read_primitive(document: Document, accessors: Accessors, outline: Outline) -> Primitive:
     """Decode a primitive."""
     vertices = outline.vertices
-    document.budget.spend(len(outline.targets) * vertices * 12)
+    document.budget.spend(len(outline.targets) * vertices * 12, outline.entry.pointer)
     targets = np.zeros((len(outline.targets), vertices, 3), np.float32)
     for number, layout in enumerate(outline.targets):
         if layout is not None:
@@ -110,7 +118,7 @@ def _check_position(document: Document, position: Layout) -> None:
 
 
 def _targets(document: Document, accessors: Accessors, primitive: Entry, position: Layout) -> tuple[Layout | None, ...]:
-    document.limits.check("max_targets", len(primitive.values("targets")))
+    document.limits.check("max_targets", len(primitive.values("targets")), pointer=f"{primitive.pointer}/targets")
     found: list[Layout | None] = []
     for target in primitive.entries("targets"):
         if "POSITION" not in target:

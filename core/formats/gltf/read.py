@@ -69,8 +69,8 @@ def _skeleton_figure(document: Document, graph: NodeGraph, nodes: list[int], cha
             moving.add(node)
             joints.append(node)
     if not joints:
-        raise InvalidModel("no-mesh", "The scene has no mesh, and none of its nodes is animated.")
-    document.limits.check("max_vertices", len(joints))
+        raise InvalidModel("no-mesh", "The scene has no mesh, and none of its nodes is animated.", pointer="/nodes")
+    document.limits.check("max_vertices", len(joints), pointer="/nodes")
     document.notices.add("skeleton-only", f"The file has no mesh; its {len(joints)} joints were taken.")
     return joints_figure(np.array(joints, np.int64))
 

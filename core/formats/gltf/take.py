@@ -48,6 +48,7 @@ def choose_animation(document: Document, accessors: Accessors, wanted: str | int
             "no-animation",
             f"Nothing is animated in the file; it has {len(document.meshes)} meshes, {len(document.skins)} skins and "
             f"{len(document.nodes)} nodes. Export it with its animations.",
+            pointer="/animations",
         )
     names = take_names(document)
     place = choose_take(names, wanted) if len(names) > 1 or wanted != "longest" else 0

@@ -107,6 +107,13 @@ def _short_target(model: Glb) -> None:
     _primitive(targets=[{"POSITION": model.accessor(np.zeros((3, 3)))}])(model)
 
 
+def _other_targets(model: Glb) -> None:
+    """A second primitive with two morph targets where the first has one."""
+    first = model.json["meshes"][0]["primitives"][0]
+    first["targets"] = [{"POSITION": POSITIONS}]
+    model.json["meshes"][0]["primitives"].append(first | {"targets": [{"POSITION": POSITIONS}] * 2})
+
+
 def _no_weights(model: Glb) -> None:
     del model.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"]
 
@@ -183,7 +190,7 @@ GEOMETRY: list[Row] = [
     ("float indices", lambda m: _primitive(indices=m.accessor([0, 1, 2]))(m), "index-out-of-range", None),
     ("mode 7", _primitive(mode=7), "invalid-gltf", "/meshes/0/primitives/0/mode"),
     ("mode as text", _primitive(mode="TRIANGLES"), "invalid-gltf", "/meshes/0/primitives/0/mode"),
-    ("no positions", _primitive(attributes={}), "no-mesh", None),
+    ("no positions", _primitive(attributes={}), "no-mesh", "/meshes"),
     ("no primitives", _set("meshes", 0, "primitives", []), "no-mesh", None),
     ("points only", _primitive(mode=0), "no-mesh", None),
     ("no vertices", _accessor(POSITIONS, count=0), "no-mesh", None),
@@ -192,6 +199,7 @@ GEOMETRY: list[Row] = [
     ("NaN position", _data(POSITIONS, 4, np.nan), "non-finite-data", "/accessors/0"),
     ("infinite position", _data(POSITIONS, 0, np.inf), "non-finite-data", "/accessors/0"),
     ("target of other count", _short_target, "invalid-gltf", None),
+    ("primitives of other targets", _other_targets, "invalid-gltf", "/meshes/0/primitives"),
 ]
 
 GRAPH: list[Row] = [
@@ -425,6 +433,7 @@ def test_a_file_that_unfolds_too_far_is_refused_by_its_limit(mutate: Mutation, l
     with pytest.raises(LimitExceeded, match=setting) as refused:
         opened(model.glb(), limits)
     assert refused.value.where.keys() >= {"limit", "actual", "setting"}
+    assert ("pointer" in refused.value.where) == (setting != "CAESURA_MAX_JSON_BYTES")
 
 
 def test_skins_that_share_nodes_are_counted_by_their_bones() -> None:
