@@ -41,16 +41,20 @@ class Peers:
         Raises `NotInstalled`.
         """
         values = described(known)
-        np.save(self.folder / "values.npy", values)
-        cuts = len(cuts_of(known.truth))
-        found = self._ask({"detector": name, "values": str(self.folder / "values.npy"), "cuts": cuts})
-        if "missing" in found:
-            raise NotInstalled(f"not installed: {found['missing']}")
-        bounds = [0, *found["cuts"], len(values)]
+        found, seconds = self.cuts(name, values, len(cuts_of(known.truth)))
+        bounds = [0, *found, len(values)]
         means = np.stack([values[a:b].mean(axis=0) for a, b in pairwise(bounds)])
         groups = min(known.motions, len(means))
         motions = AgglomerativeClustering(groups).fit_predict(means) if groups > 1 else np.zeros(len(means), np.int64)
-        return np.repeat(motions, np.diff(bounds)), float(found["seconds"])
+        return np.repeat(motions, np.diff(bounds)), seconds
+
+    def cuts(self, name: str, values: Float[np.ndarray, "frames D"], count: int) -> tuple[list[int], float]:
+        """The cuts that it finds, told how many, and the seconds it took. Raises `NotInstalled`."""
+        np.save(self.folder / "values.npy", values)
+        found = self._ask({"detector": name, "values": str(self.folder / "values.npy"), "cuts": count})
+        if "missing" in found:
+            raise NotInstalled(f"not installed: {found['missing']}")
+        return found["cuts"], float(found["seconds"])
 
     def _ask(self, request: dict[str, Any]) -> Any:
         if self.process.stdin is None or self.process.stdout is None:

@@ -2,6 +2,7 @@
 
     python -m benchmarks.speed            # minutes; writes docs/performance.md and docs/performance.svg
     python -m benchmarks.speed --quick    # under 40 s; prints alone
+    python -m benchmarks.speed --peers PYTHON    # beside KernelCPD, which that Python has (see peers.txt)
     python -m benchmarks.speed --huge     # and the command on an NPZ of 8 GB in a temporary folder
 
 Every figure is a ratio of things measured in the same run, on two threads, best of several alternating turns, in
@@ -13,17 +14,16 @@ import argparse
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from importlib import import_module
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from benchmarks.curve import Curve
-from benchmarks.detectors import DETECTORS
 from benchmarks.growth import Series, drawn
 from benchmarks.memory import beyond_input, of_the_command
 from benchmarks.numpy_twin import twin
+from benchmarks.peers import NotInstalled, peers
 from benchmarks.report import write_section
 from benchmarks.skinned import Skinned
 from benchmarks.stopwatch import Cost, least
@@ -151,19 +151,20 @@ def skinned(turns: int) -> Iterator[Row]:
     yield Row(f"skinned file to energy curve over the same from vertices, {size}", ratio(costs, "file", "vertices"), 2)
 
 
-def against_ruptures(turns: int, frames: int) -> Iterator[Row]:
+def against_ruptures(python: str, turns: int, frames: int) -> Iterator[Row]:
     """The cut alone beside KernelCPD, which is told how many cuts there are; both on the features of one take."""
-    try:
-        import_module("ruptures")
-    except ImportError:
-        yield Row("KernelCPD of ruptures over our cut: not installed", float("nan"))
-        return
     told = Parameters.parse({"motions": 4})
     analysis = analyse(Tube.of(frames, 2_000).animation(frames), told, threads=THREADS)
     values = np.concatenate([feature.values for feature in analysis.features], axis=1).astype(np.float64)
     cuts = int(np.count_nonzero(np.diff(cut(analysis, told).labels)))
-    ways = {"ruptures": lambda: DETECTORS["kernel-cpd"](values, cuts), "cut": lambda: cut(analysis, told)}
-    yield Row(f"KernelCPD of ruptures over our cut, {frames:,} frames", ratio(least(ways, turns), "ruptures", "cut"))
+    ours = least({"cut": lambda: cut(analysis, told)}, turns)["cut"].clock
+    try:
+        with peers(python) as others:
+            theirs = min(others.cuts("kernel-cpd", values, cuts)[1] for _ in range(turns + 1))
+    except NotInstalled as missing:
+        yield Row(f"KernelCPD of ruptures over our cut: {missing}", float("nan"))
+        return
+    yield Row(f"KernelCPD of ruptures over our cut, {frames:,} frames, by the clock", theirs / ours)
 
 
 def memory(huge: bool) -> Iterator[Row]:
@@ -199,13 +200,14 @@ def main() -> None:
     options = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     options.add_argument("--quick", action="store_true", help="smaller and fewer; writes nothing")
     options.add_argument("--huge", action="store_true", help="also the command on a file of 8 GB")
+    options.add_argument("--peers", default=sys.executable, metavar="PYTHON", help="the Python that has ruptures")
     given = options.parse_args()
     quick = given.quick
     turns, frames = (2, 1_280) if quick else (5, 4_580)
     rows = [*against_copy(turns, frames), *against_copy_of_large(turns, 50_000 if quick else 200_000)]
     rows += [*against_twin(1 if quick else 3), *breakdown(turns, 640)]
     grown, series = growth(QUICK_GROWTH if quick else GROWTH, 1 if quick else 3)
-    rows += [*grown, *against_ruptures(1, 1_000 if quick else 4_580)]
+    rows += [*grown, *against_ruptures(given.peers, 1, 1_000 if quick else 4_580)]
     if not quick:
         rows += [*skinned(turns), *memory(given.huge)]
     if not quick:
