@@ -86,11 +86,12 @@ class Parameters(BaseModel):
         try:
             parameters = cls.model_validate({name: _value(name, text) for name, text in given.items()})
         except ValidationError as refused:
-            first = refused.errors()[0]
-            name = str(first["loc"][0])
+            faults = refused.errors()
+            name = str(faults[0]["loc"][0])
+            reasons = dict.fromkeys(fault["msg"] for fault in faults if fault["loc"][0] == name)  # a word, or a number
             raise ParameterError(
                 "invalid-parameter",
-                f"{name} = {given[name]!r} is not possible: {first['msg']}. "
+                f"{name} = {str(given[name])[:80]!r} is not possible: {'; or: '.join(reasons)}. "
                 f"It is: {cls.model_fields[name].description}.",
                 parameter=name,
             ) from None

@@ -32,6 +32,13 @@ def test_a_number_out_of_range_is_refused(given: dict[str, str]) -> None:
     assert refused.value.where["parameter"] == next(iter(given))
 
 
+def test_a_refusal_says_what_may_be_written_in_all_its_forms() -> None:
+    """Neither the word nor the largest number alone: whoever asked for 5,000 motions was not looking for `auto`."""
+    with pytest.raises(ParameterError, match=r"'auto'; or: .* 1000") as refused:
+        Parameters.parse({"motions": 5000})
+    assert len(refused.value.detail) < 300
+
+
 @pytest.mark.parametrize("truth", [True, "true"])
 @pytest.mark.parametrize("name", ["fps", "motions", "seed", "rest", "bins", "start"])
 def test_a_truth_is_no_number(name: str, truth: object) -> None:
