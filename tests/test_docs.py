@@ -48,6 +48,15 @@ def test_links_lead_somewhere(checkout: Path, page: Path) -> None:
 
 
 @pytest.mark.parametrize("page", PAGES, ids=str)
+def test_measured_sections_hold_figures(checkout: Path, page: Path) -> None:
+    """What a program wrote into its section is a table, not nothing and not how it failed."""
+    text = (checkout / page).read_text(encoding="utf-8")
+    assert "Traceback (most recent call last)" not in text
+    for name, found in re.findall(r"^<!-- (\w+) -->\n(.*?)^<!-- /\1 -->", text, re.DOTALL | re.MULTILINE):
+        assert re.search(r"\d", found), f"{page}: nothing was measured in {name}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=str)
 def test_commands_exist(checkout: Path, page: Path) -> None:
     """Every `make X` and `caesura X` that a page shows can be run."""
     makefile = (checkout / "Makefile").read_text(encoding="utf-8")
