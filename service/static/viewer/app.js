@@ -1,8 +1,10 @@
 // The page: which of its four faces it shows (start, waiting, refused, result), and what leads from one to another.
 
+import { frameOfAddress, remember, revisionOfAddress } from './address.js';
 import * as api from './api.js';
 import { controls, note, offerMethods } from './controls.js';
 import { $ } from './dom.js';
+import { face, refuse } from './faces.js';
 import { drawHeatKey } from './heat.js';
 import { beginProgress, progress, statusProgress } from './progress.js';
 import { showRecent } from './recent.js';
@@ -16,24 +18,10 @@ let shown = null; // the Result on screen
 let status = null; // its status document
 let task = new AbortController(); // what the page is busy with; a newer one ends it
 
-function face(name, title = '') {
-  document.body.dataset.view = name;
-  document.title = title ? `${title} · Caesura` : 'Caesura';
-}
-
 function begin() {
   task.abort();
   task = new AbortController();
   return task.signal;
-}
-
-function refuse(problem, name = '') {
-  if (problem.name === 'AbortError') return;
-  if (!(problem instanceof api.Problem)) console.error(problem);
-  const { pointer, parameter, frame, code } = problem.document || {};
-  $('refused-detail').textContent = problem instanceof api.Problem ? problem.message : 'The page itself failed; the console says where.';
-  $('refused-where').textContent = [name, code, pointer, parameter, frame !== undefined && `frame ${frame}`].filter(Boolean).join(' · ');
-  face('refused', 'Problem');
 }
 
 /** Files a person gave: send them, have them cut, show the result. */
@@ -140,23 +128,6 @@ async function leave() {
   shown?.clock.toggle(false);
   if (!shown?.editor.saving.open) return true;
   return shown.editor.saving.flush().then(() => true, () => confirm('Your last edits could not be saved. Leave all the same?'));
-}
-
-const frameOfAddress = () => numberAfter(location.hash, /[#&]frame=(\d+)/);
-const revisionOfAddress = () => numberAfter(location.search, /[?&]revision=(\d+)/);
-function numberAfter(text, pattern) {
-  const match = pattern.exec(text);
-  return match ? Number(match[1]) : null;
-}
-
-/** Keep the moment in the address, once it rests: browsers refuse to be told sixty times a second. */
-let resting;
-function remember(clock) {
-  clearTimeout(resting);
-  if (clock.playing) return;
-  resting = setTimeout(() => {
-    if (document.body.dataset.view === 'result') history.replaceState(null, '', `${location.pathname}${location.search}#frame=${clock.frame}`);
-  }, 250);
 }
 
 /** What the address asks for. */

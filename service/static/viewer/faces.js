@@ -1,0 +1,20 @@
+// The four faces of the page: start, waiting, refused and result. The style sheet shows the one that is set.
+
+import { Problem } from './api.js';
+import { $ } from './dom.js';
+
+/** Show one of them. */
+export function face(name, title = '') {
+  document.body.dataset.view = name;
+  document.title = title ? `${title} · Caesura` : 'Caesura';
+}
+
+/** Say what went wrong, and with what. */
+export function refuse(problem, name = '') {
+  if (problem.name === 'AbortError') return;
+  if (!(problem instanceof Problem)) console.error(problem);
+  const { pointer, parameter, frame, code } = problem.document || {};
+  $('refused-detail').textContent = problem instanceof Problem ? problem.message : 'The page itself failed; the console says where.';
+  $('refused-where').textContent = [name, code, pointer, parameter, frame !== undefined && `frame ${frame}`].filter(Boolean).join(' · ');
+  face('refused', 'Problem');
+}
