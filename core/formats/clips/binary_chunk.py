@@ -23,16 +23,11 @@ class BinaryChunk:
         self._tail = Room(-(-length // 4) * 4, 2**63)
         self._end = length
 
-    def put(self, data: bytes) -> tuple["Room", int]:
-        """Find room for an array: the room, whose view it will be in, and where in it."""
-        for room in self._rooms:
-            if room.end - room.next >= len(data):
-                break
-        else:
-            room = self._tail
-        at = room.next
+    def put(self, data: bytes, row: int) -> tuple["Room", int]:
+        """Find room for an array of rows of so many bytes: the room, whose view it will be in, and where in it."""
+        room = next((r for r in self._rooms if r.end - r.after(data, row) >= len(data)), self._tail)
+        at = room.take(data, row)
         self._patches.append((at, data))
-        room.next += -(-len(data) // 4) * 4
         if room is self._tail:
             self._end = at + len(data)
         return room, at - room.start
@@ -74,3 +69,16 @@ class Room:
         self.end = end
         self.view: dict[str, Any] | None = None
         self.number = -1
+        self._last = b""
+
+    def take(self, data: bytes, row: int) -> int:
+        """Where the array goes."""
+        at = self.after(data, row)
+        self.next, self._last = at + -(-len(data) // 4) * 4, data
+        return at
+
+    def after(self, data: bytes, row: int) -> int:
+        """Where it would go: on the last row of the one before where it begins with that, as one clip does where
+        another ends."""
+        shares = not (row % 4 or len(self._last) % 4) and row < len(data) and self._last.endswith(data[:row])
+        return self.next - row if shares else self.next

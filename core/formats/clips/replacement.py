@@ -36,7 +36,7 @@ class Replacement:
         self._bare = animation_only
         self._freed: list[int] = []
         self._slots: list[int] = []
-        self._entries: list[tuple[int, dict[str, Any], bytes | None]] = []
+        self._entries: list[tuple[int, dict[str, Any], bytes | None, int]] = []
         self._known: dict[tuple[Any, ...], int] = {}
         self._staying: list[int] = []
         self._added: dict[int, list[dict[str, Any]]] = {}
@@ -63,10 +63,9 @@ class Replacement:
         if self._bare or "bufferView" not in entry or "sparse" in entry:
             return None
         start = entry.get("byteOffset", 0) + first * layout.width * layout.dtype.itemsize
-        kept: dict[str, Any] = {
-            name: entry[name] for name in ("bufferView", "componentType", "type", "normalized") if name in entry
-        }
-        return self._accessor(kept | ({"byteOffset": start} if start else {}) | {"count": count}, None)
+        kept: dict[str, Any] = {name: entry[name] for name in ("bufferView", "componentType", "type")}
+        more = ({"normalized": True} if layout.normalized else {}) | ({"byteOffset": start} if start else {})
+        return self._accessor({**kept, **more, "count": count}, None)
 
     def times(self, seconds: Float[np.ndarray, "keys"]) -> int:
         """An accessor of key times, with the bounds that they must have."""
@@ -76,7 +75,7 @@ class Replacement:
         """An accessor of new numbers, elements of `width` each."""
         data = np.ascontiguousarray(values).astype(values.dtype.newbyteorder("<")).tobytes()
         accessor = {"componentType": COMPONENTS[values.dtype.name], "count": values.size // width, "type": kind}
-        return self._accessor(accessor | more, data)
+        return self._accessor(accessor | more, data, values[:1].nbytes)
 
     def pieces(self) -> Iterator[bytes]:
         """The GLB."""
@@ -89,7 +88,7 @@ class Replacement:
             root["buffers"] = root["buffers"][1:]
         for name in [name for name in ("buffers", "bufferViews", "accessors") if not root.get(name)]:
             root.pop(name, None)
-        text = json.dumps(root, separators=(",", ":"), allow_nan=False).encode()
+        text = _text(root)
         text += b" " * (-len(text) % 4)
         padding = -chunk.length % 4
         binary = 8 + chunk.length + padding if chunk.length else 0
@@ -100,7 +99,7 @@ class Replacement:
             yield from filter(None, chunk.content())
             yield bytes(padding)
 
-    def _accessor(self, accessor: dict[str, Any], data: bytes | None) -> int:
+    def _accessor(self, accessor: dict[str, Any], data: bytes | None, row: int = 0) -> int:
         """Its number; the same numbers again are the same accessor."""
         key = (data, tuple((name, str(value)) for name, value in accessor.items()))
         if key not in self._known:
@@ -110,7 +109,7 @@ class Replacement:
             else:
                 number = len(accessors)
                 accessors.append(UNUSED)
-            self._entries.append((number, accessor, data))
+            self._entries.append((number, accessor, data, row))
             self._known[key] = number
         return self._known[key]
 
@@ -126,7 +125,7 @@ class Replacement:
     def _placed(self) -> BinaryChunk:
         """Write the new accessors into the JSON and their bytes into room that is free."""
         root = self._file.json
-        windows = [accessor for _, accessor, data in self._entries if data is None]
+        windows = [accessor for _, accessor, data, _ in self._entries if data is None]
         freed = [number for number in self._freed if number < len(root.get("accessors", []))]
         chunk = BinaryChunk(self._file.pieces, self._file.length, free_ranges(root, freed, windows))
         spare = unused_views(root, freed, windows)
@@ -135,9 +134,9 @@ class Replacement:
             root["accessors"][number] = dict(UNUSED)
         for number in spare:
             views[number] = {"buffer": 0, "byteLength": 1}
-        for number, accessor, data in self._entries:
+        for number, accessor, data, row in sorted(self._entries, key=lambda entry: -entry[-1]):
             if data is not None:
-                room, offset = chunk.put(data)
+                room, offset = chunk.put(data, row)
                 if room.view is None:
                     room.view = {"buffer": 0, "byteOffset": room.start}
                     room.number = spare.pop() if spare else len(views)
@@ -149,3 +148,11 @@ class Replacement:
             if view["buffer"] == 0:
                 view["byteLength"] = min(view["byteLength"], chunk.length - view.get("byteOffset", 0))
         return chunk
+
+
+def _text(root: dict[str, Any]) -> bytes:
+    """The JSON in as few bytes as it takes; half a letter, which JSON may say but UTF-8 cannot, stays a number."""
+    try:
+        return json.dumps(root, separators=(",", ":"), allow_nan=False, ensure_ascii=False).encode()
+    except UnicodeEncodeError:
+        return json.dumps(root, separators=(",", ":"), allow_nan=False).encode()
