@@ -41,7 +41,6 @@ function parsedProblem(text, status) {
 const json = (value) => ({ body: JSON.stringify(value), headers: { 'Content-Type': 'application/json' } });
 
 export const recentAnimations = () => call('GET', '/v1/animations');
-export const animation = (id) => call('GET', `/v1/animations/${id}`);
 export const segmentationsOf = (id) => call('GET', `/v1/segmentations?animation=${id}`);
 export const methods = () => call('GET', '/v1/methods');
 export const status = (id, wait, signal) =>

@@ -65,14 +65,13 @@ export function reflect(document) {
   showScores(compared.scores, chosen, choose);
 }
 
-const option = (name, title) => make('option', { value: name, title: title || '' }, name);
+const option = (name, title = '') => make('option', { value: name, title }, name);
 
 /** Fill the choice of methods from what the service offers. */
 export async function offerMethods() {
   const answer = await api.methods().catch(() => null);
   if (!answer) return;
-  const list = Array.isArray(answer.methods) ? answer.methods : Object.entries(answer.methods || {}).map(([name, m]) => ({ name, ...m }));
   const chosen = $('method').value;
-  $('method').replaceChildren(...list.map((method) => option(method.name || method.method, method.description)));
+  $('method').replaceChildren(...answer.methods.map(({ name, description }) => option(name, description)));
   if (chosen) $('method').value = chosen;
 }

@@ -1,6 +1,7 @@
 // The energy curve, its key-frames and the cuts, over the colours of the motions.
 
 import uPlot from 'uplot';
+import { doubtful } from './certainty.js';
 import { numberOf } from './counting.js';
 import { onceAFrame, onResize, onTheme, styled } from './dom.js';
 import { colourOf } from './palette.js';
@@ -110,7 +111,7 @@ export class Curve {
     ctx.globalAlpha = Math.min(0.6, this.plot.width / visible.length / 40);
     for (const segment of visible) {
       if (segment.end >= this.#document.frames) continue;
-      ctx.setLineDash(segment.confidence !== null && segment.confidence < 0.5 ? [3 * ratio, 3 * ratio] : []);
+      ctx.setLineDash(doubtful(segment) ? [3 * ratio, 3 * ratio] : []);
       const x = Math.round(u.valToPos(segment.end, 'x', true)) + 0.5;
       ctx.beginPath();
       ctx.moveTo(x, bbox.top);

@@ -16,10 +16,10 @@ const FORMS = [
 ];
 
 /**
- * Wire the links once. `shown()` answers `{ id, name, revision, keep }`: what is on screen, and how to keep what is
- * open; `note` says how far it is.
+ * Wire the links once. `shown()` answers `{ id, name, revision, dirty, keep }`: what is on screen, whether edits are
+ * open, and how to keep them.
  */
-export function downloads(shown, note) {
+export function downloads(shown) {
   const menu = $('downloads').querySelector('details');
   const list = menu.querySelector('ul');
   const links = FORMS.map(([path, title, what, waits]) => {
@@ -31,6 +31,7 @@ export function downloads(shown, note) {
   const clips = $('clips');
   clips.onclick = (event) => save(event, clips, 'clips', true);
   links.push([clips, 'clips']);
+  const note = (sentence) => { $('downloads-note').textContent = sentence; };
   menu.addEventListener('keydown', (event) => {
     if (event.key !== 'Escape' || !menu.open) return;
     event.stopPropagation();

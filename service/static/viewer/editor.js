@@ -26,7 +26,7 @@ export class Editor {
   get canRedo() { return this.#history.canRedo; }
 
   /** The segment that the moment is in. */
-  get here() { return this.#result.indexAt(this.#result.clock.frame); }
+  get here() { return edits.indexAt(this.segments, this.#result.clock.frame); }
 
   /** Select a cut (-1: none), and bring the moment to it. */
   select(cut) {

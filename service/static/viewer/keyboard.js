@@ -1,6 +1,7 @@
 // The page by keyboard alone. A key that types into a field is the field's.
 
 import { $ } from './dom.js';
+import { jump } from './visits.js';
 
 /** `shown()` is the result on screen, or null; `askHelp` opens the list of keys. */
 export function keyboard(shown, askHelp) {
@@ -20,8 +21,8 @@ export function keyboard(shown, askHelp) {
     ArrowRight: (event) => step(event.shiftKey ? 10 : 1),
     Home: () => to(0),
     End: () => to(shown().clock.frames - 1),
-    ',': () => shown().jump(-1),
-    '.': () => shown().jump(1),
+    ',': () => jump(shown(), -1),
+    '.': () => jump(shown(), 1),
     '+': () => zoom(1.6),
     '=': () => zoom(1.6),
     '-': () => zoom(1 / 1.6),

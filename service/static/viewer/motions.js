@@ -1,5 +1,6 @@
 // The list of segments: what, from where, how long. Every row is a button that goes there; one Tab stop for all.
 
+import { doubtful } from './certainty.js';
 import { countsFrom, shownFrame, shownInterval } from './counting.js';
 import { $, inView, make, unseen } from './dom.js';
 import { duration } from './numbers.js';
@@ -52,8 +53,6 @@ export class SegmentList {
   #row(index) {
     const segment = this.#document.segments[index];
     const length = duration((segment.end - segment.start) / this.#document.frame_rate);
-    const last = index + 1 === this.#document.segments.length;
-    const doubt = !last && segment.confidence !== null && segment.confidence < 0.5;
     const place = this.#counted ? shownInterval(segment.start, segment.end) : shownFrame(segment.start);
     const row = make('button', { type: 'button', className: 'segment', tabIndex: -1, onclick: () => this.#go(index) },
       swatch(segment.motion),
@@ -63,7 +62,7 @@ export class SegmentList {
       unseen(' lasts '),
       make('span', { className: 'long' }, length),
       make('span', { className: 'marks' }, segment.loop ? make('span', {}, '↻', unseen(' loops')) : null,
-        doubt ? make('b', { title: 'The method is in doubt about where this ends' }, '?', unseen(' doubtful end')) : null));
+        doubtful(segment) ? make('b', { title: 'The method is in doubt about where this ends' }, '?', unseen(' doubtful end')) : null));
     if (segment.discard) row.append(unseen(' discarded'));
     row.classList.toggle('discarded', Boolean(segment.discard));
     return row;

@@ -9,7 +9,7 @@ const MOST = 12;
 /** Fill the list. `open(animation)` is called for the one chosen. Stays hidden where there is nothing. */
 export async function showRecent(open) {
   const answer = await api.recentAnimations().catch(() => null);
-  const animations = (answer?.animations || answer?.items || []).slice(0, MOST);
+  const animations = (answer?.animations || []).slice(0, MOST);
   $('recent').hidden = !animations.length;
   $('recent').querySelector('ul').replaceChildren(...animations.map((animation) => make('li', {},
     make('button', { type: 'button', className: 'animation', onclick: () => open(animation) },

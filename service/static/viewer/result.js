@@ -2,48 +2,51 @@
 
 import { Clock } from './clock.js';
 import { reflect } from './controls.js';
-import { numberOf, onCounting, shownFrame } from './counting.js';
+import { onCounting } from './counting.js';
 import { Curve } from './curve.js';
-import { $, make } from './dom.js';
+import { $ } from './dom.js';
 import { Editor } from './editor.js';
+import { tellCounts, tellTake } from './facts.js';
+import { tellMoment } from './moment.js';
 import { SegmentList } from './motions.js';
-import { clock as clockTime, count, whole } from './numbers.js';
 import { captions } from './pair.js';
 import { tagged } from './palette.js';
 import { Presence } from './presence.js';
 import { Review } from './review.js';
+import { indexAt } from './segments.js';
 import { Span } from './span.js';
 import { Timeline } from './timeline.js';
 import { tracks } from './tracks.js';
+import { goTo, loop } from './visits.js';
 
 export class Result {
-  #gone = new AbortController(); #place; #segment = -1; #ends = []; #list; #listener; #work = null;
+  #gone = new AbortController(); #place; #segment = -1; #list; #listener; #work = null;
 
-  /** Lay out `document` for the first time; `newest` is its newest revision. `onChange()` hears of every edit. */
-  constructor(document, newest, onChange) {
+  /** Lay out `document` for the first time; `status` is the service's word of it. `onChange()` hears of every edit. */
+  constructor(document, status, onChange) {
     const { signal } = this.#gone;
     this.#listener = onChange;
     this.presence = new Presence(() => this.#moments(), signal);
     this.clock = new Clock(document.frames, document.frame_rate, (frame) => this.presence.ready(frame));
     this.clock.speed = Number($('speed').value);
     this.span = new Span(document.frames);
-    this.#list = new SegmentList((index) => this.go(index));
+    this.#list = new SegmentList((index) => goTo(this, index));
     this.#take(document);
     this.curve = new Curve($('curve'), document, this.span, signal);
     this.timeline = new Timeline($('timeline'), document, this.span, () => this.curve.plot, signal);
     this.#place = tracks(this, signal);
-    this.#open(document, newest);
+    this.#open(document, status);
     this.clock.listen(() => (this.#hasLeftCut() ? this.editor.select(-1) : this.#moment()));
     onCounting(() => this.#recount(), signal);
   }
 
   /** Another cut of the same take: everything but the figure, the moment and the zoom changes. */
-  show(document, newest) {
+  show(document, status) {
     this.clock.loop = null;
     this.#take(document);
     this.curve.show(document);
     this.timeline.show(document);
-    this.#open(document, newest);
+    this.#open(document, status);
   }
 
   /** The same result with edited segments. */
@@ -52,7 +55,7 @@ export class Result {
     this.curve.edited(document);
     this.timeline.show(document);
     this.#list.show(document);
-    this.#summary();
+    tellCounts(document);
     this.#moment();
   }
 
@@ -72,81 +75,38 @@ export class Result {
     this.#gone.abort();
   }
 
-  /** The segment a frame is in. */
-  indexAt(frame) {
-    let low = 0;
-    let high = this.#ends.length - 1;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (frame < this.#ends[middle]) high = middle; else low = middle + 1;
-    }
-    return low;
-  }
+  /** Whether the page shows another by now. */
+  get closed() { return this.#gone.signal.aborted; }
 
-  /** How many segments are on screen. */
-  visible() { return this.indexAt(this.span.to) - this.indexAt(this.span.from) + 1; }
+  /** The segment a frame is in, by its place. */
+  indexAt(frame) { return indexAt(this.document.segments, frame); }
 
   /** Seconds of a frame on the file's own clock. */
-  seconds(frame) { return this.document.source.start_seconds + frame / this.document.frame_rate; }
+  secondsAt(frame) { return this.document.source.start_seconds + frame / this.document.frame_rate; }
 
-  go(index) {
-    const segment = this.document.segments[index];
-    if (!segment) return;
-    this.editor.select(-1);
-    this.clock.seek(segment.start);
-    if ($('loop').checked) this.clock.loop = [segment.start, segment.end];
-    this.span.reveal(segment.start);
-  }
-
-  /** To the segment before or after. Going back from within one goes to its own start first. */
-  jump(by) {
-    const index = this.indexAt(this.clock.frame);
-    const started = this.clock.frame - this.document.segments[index].start > this.clock.rate / 2;
-    this.go(by < 0 && started ? index : Math.max(0, Math.min(this.document.segments.length - 1, index + by)));
-  }
-
-  loop(on) {
-    const segment = this.document.segments[this.indexAt(this.clock.frame)];
-    this.clock.loop = on ? [segment.start, segment.end] : null;
-  }
+  /** Seconds of the moment. */
+  get seconds() { return this.secondsAt(this.clock.frame); }
 
   #take(document) {
     this.document = document;
-    this.#ends = document.segments.map((segment) => segment.end);
     this.#segment = -1;
   }
 
   /** Begin to edit a document; what was worked on before is over. */
-  #open(document, newest) {
+  #open(document, status) {
+    this.status = status;
     this.#work?.abort();
     this.#work = new AbortController();
     this.editor?.close();
-    this.editor = new Editor(this, { newest, onChange: () => { this.review.show(); this.#place(); this.#listener(); } });
+    this.editor = new Editor(this, { newest: status.revision, onChange: () => { this.review.show(); this.#place(); this.#listener(); } });
     this.review = new Review(document.id, this.editor, this.clock, this.span, this.#work.signal);
-    this.#say(document);
+    tellTake(document);
+    tellCounts(document);
+    this.#list.show(document);
+    reflect(document);
     this.review.show();
     this.selected(-1);
     this.#listener();
-  }
-
-  /** What does not move: counts, lists, links. */
-  #say(document) {
-    $('frames').textContent = whole(document.frames);
-    $('frame').size = Math.max(3, String(document.frames).length);
-    $('cut-frame').size = $('frame').size;
-    $('timeline').setAttribute('aria-valuemax', document.frames - 1);
-    this.#list.show(document);
-    this.#summary();
-    const warnings = $('warnings');
-    warnings.hidden = !document.warnings.length;
-    warnings.querySelector('summary').textContent = count(document.warnings.length, 'thing to know', 'things to know');
-    warnings.querySelector('ul').replaceChildren(...document.warnings.map((warning) => make('li', {}, warning.detail)));
-    reflect(document);
-  }
-
-  #summary() {
-    const { motions, segments } = this.document;
-    $('summary').textContent = `${count(motions, 'motion')} · ${count(segments.length, 'segment')}`;
   }
 
   /** Numbers are counted the other way. */
@@ -156,45 +116,36 @@ export class Result {
     this.#moment();
   }
 
+  /** The segments on both sides of the selected cut, while they are compared; else null. */
+  get #pair() {
+    const { cut } = this.editor;
+    return cut >= 0 && !this.clock.playing ? this.document.segments.slice(cut, cut + 2) : null;
+  }
+
   /** What the figure shows: the moment, or the two sides of the selected cut. */
   #moments() {
-    const { clock, editor } = this;
-    const { segments } = this.document;
-    if (editor?.cut >= 0 && !clock.playing) {
-      const [before, after] = [segments[editor.cut], segments[editor.cut + 1]];
+    const { clock } = this;
+    if (this.#pair) {
+      const [before, after] = this.#pair;
       return [{ position: before.end - 1, motion: before.motion }, { position: after.start, motion: after.motion }];
     }
     // Paused: the frame's own pose. Playing: between two frames too, so that it is smooth on a fast screen.
-    return [{ position: clock.playing ? clock.position : clock.frame, motion: segments[this.indexAt(clock.frame)].motion }];
+    const { motion } = this.document.segments[this.indexAt(clock.frame)];
+    return [{ position: clock.playing ? clock.position : clock.frame, motion }];
   }
 
   /** Whether the moment has gone elsewhere than the selected cut. Playing around it is not leaving it. */
-  #hasLeftCut() {
-    const { cut } = this.editor;
-    return cut >= 0 && !this.clock.playing && this.clock.frame !== this.document.segments[cut].end;
-  }
+  #hasLeftCut() { return this.#pair !== null && this.clock.frame !== this.#pair[0].end; }
 
-  /** What moves with the clock. */
+  /** The clock has moved, or what is around it has changed. */
   #moment() {
-    const { clock, editor } = this;
-    const { frame } = clock;
-    const index = this.indexAt(frame);
-    const cut = editor?.cut ?? -1;
-    if (clock.playing) this.#follow(frame);
-    if (!clock.loop && !clock.until && $('loop').checked) this.loop(true);
+    const { clock } = this;
+    const index = this.indexAt(clock.frame);
+    if (clock.playing) this.span.follow(clock.frame);
+    if (!clock.loop && !clock.until && $('loop').checked) loop(this, true);
     this.#place();
-    const field = $('frame');
-    if (field !== window.document.activeElement) field.value = numberOf(frame);
-    $('seconds').textContent = clockTime(this.seconds(frame));
-    const energy = this.document.energy[frame];
-    $('nats').textContent = energy === null || energy === undefined ? '' : `${energy.toFixed(3)} nats`;
-    document.body.classList.toggle('playing', clock.playing);
-    $('play').setAttribute('aria-label', clock.playing ? 'Pause' : 'Play');
     if (index !== this.#segment) this.#enter(index);
-    const two = cut >= 0 && !clock.playing;
-    captions(...(two ? [this.document.segments[cut], this.document.segments[cut + 1]] : [null]));
-    $('timeline').setAttribute('aria-valuenow', frame);
-    $('timeline').setAttribute('aria-valuetext', `frame ${shownFrame(frame)}, motion ${this.document.segments[index].name}`);
+    tellMoment(this, this.document.segments[index], this.#pair);
     this.presence.show();
   }
 
@@ -204,12 +155,5 @@ export class Result {
     this.timeline.mark(index);
     tagged($('now-motion'), this.document.segments[index]);
     this.#listener();
-  }
-
-  /** While it plays, the span moves on by pages: a curve that crawls cannot be read. */
-  #follow(frame) {
-    const { span } = this;
-    if (frame >= span.to - 1 && span.to < span.frames) span.set(frame, frame + span.length);
-    else if (frame < span.from) span.set(frame, frame + span.length);
   }
 }

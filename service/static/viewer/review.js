@@ -1,32 +1,28 @@
-// The cuts, least certain first, for a person to look through. What was checked is remembered in this browser.
+// The cuts, least certain first, for a person to look through.
 
-import { onCounting, shownFrame } from './counting.js';
-import { $, inView, make, unseen } from './dom.js';
-import { stored, store } from './memory.js';
+import { doubtful } from './certainty.js';
+import { Checked } from './checked.js';
+import { onCounting } from './counting.js';
+import { cutRow, cutText } from './cut_row.js';
+import { $, inView, make } from './dom.js';
 import { count } from './numbers.js';
-import { swatch } from './palette.js';
 import { roving, stop } from './roving.js';
 
-const DOUBT = 0.5; // less certain than this, a cut is doubtful
 const AROUND = 0.5; // seconds played on either side
 const WIDE = 30; // seconds to look at a cut in, where more than twice that is shown
 
 export class Review {
-  #list = $('cuts'); #editor; #clock; #span; #key; #checked; #rows = new Map(); #drawn = null;
+  #list = $('cuts'); #editor; #clock; #span; #checked; #rows = new Map(); #drawn = null;
 
   /** `editor` selects cuts, `clock` plays around them, `span` shows them; results are told apart by `id`. */
   constructor(id, editor, clock, span, signal) {
     this.#editor = editor;
     this.#clock = clock;
     this.#span = span;
-    this.#key = `caesura.checked.${id}`;
-    this.#checked = new Set(stored(this.#key, []));
+    this.#checked = new Checked(id);
     this.#list.replaceChildren();
     onCounting(() => { this.#drawn = null; this.show(); }, signal);
   }
-
-  /** Cuts that nobody has checked or placed, least certain first. */
-  get #open() { return this.#order().filter(({ segment }) => this.#unchecked(segment)); }
 
   /** List the cuts as they are now, and mark the selected one. */
   show() {
@@ -36,14 +32,14 @@ export class Review {
     const marked = this.#list.querySelector('[aria-current]');
     if (marked !== chosen) marked?.removeAttribute('aria-current');
     chosen?.setAttribute('aria-current', 'true');
-    for (const id of ['around', 'checked']) $(id).disabled = this.#editor.cut < 0;
-    const at = segments[this.#editor.cut];
+    const at = this.#selected;
+    for (const id of ['around', 'checked']) $(id).disabled = !at;
     $('checked').setAttribute('aria-pressed', String(Boolean(at && this.#checked.has(at.end))));
   }
 
   /** Select the cut that is least certain after the selected one, and bring its row into view. Answers whether there was one. */
   next() {
-    const open = this.#open;
+    const open = this.#order().filter(({ segment }) => this.#isOpen(segment));
     const at = open.findIndex(({ cut }) => cut === this.#editor.cut);
     const next = open[(at + 1) % Math.max(1, open.length)];
     if (!next) return false;
@@ -54,22 +50,22 @@ export class Review {
 
   /** Mark the selected cut as checked and go on, or take the mark away. */
   check() {
-    const segment = this.#editor.segments[this.#editor.cut];
-    if (!segment) return;
-    const before = this.#checked.has(segment.end);
-    if (before) this.#checked.delete(segment.end); else this.#checked.add(segment.end);
-    store(this.#key, [...this.#checked]);
+    if (!this.#selected) return;
+    const marked = this.#checked.toggle(this.#selected.end);
     this.#drawn = null;
-    if (before || !this.next()) this.show();
+    if (!marked || !this.next()) this.show();
   }
 
   /** Play a second around the selected cut. */
   play() {
-    const segment = this.#editor.segments[this.#editor.cut];
-    if (!segment) return;
+    if (!this.#selected) return;
+    const { end } = this.#selected;
     const some = AROUND * this.#clock.rate;
-    this.#clock.once(segment.end - some, segment.end + some, segment.end);
+    this.#clock.once(end - some, end + some, end);
   }
+
+  /** The segment that the selected cut ends, if one is selected. */
+  get #selected() { return this.#editor.segments[this.#editor.cut]; }
 
   /** Select a cut, near enough to see where it lies. */
   #choose(cut) {
@@ -79,14 +75,13 @@ export class Review {
     if (this.#span.length > 2 * wide) this.#span.set(end - wide / 2, end + wide / 2);
   }
 
-  #unchecked({ end, confidence }) { return confidence !== null && !this.#checked.has(end); }
-
-  #doubtful(segment) { return this.#unchecked(segment) && segment.confidence < DOUBT; }
+  /** Whether nobody has checked or placed the cut that ends a segment. */
+  #isOpen({ end, confidence }) { return confidence !== null && !this.#checked.has(end); }
 
   /** All cuts: those without an open question last. */
   #order() {
     const cuts = this.#editor.segments.slice(0, -1).map((segment, cut) => ({ segment, cut }));
-    const rank = ({ segment }) => (segment.confidence === null || this.#checked.has(segment.end) ? 2 : segment.confidence);
+    const rank = ({ segment }) => (this.#isOpen(segment) ? segment.confidence : 2);
     return cuts.sort((one, other) => rank(one) - rank(other) || one.cut - other.cut);
   }
 
@@ -95,54 +90,40 @@ export class Review {
     this.#drawn = segments;
     const order = this.#order();
     const kept = new Map();
-    order.forEach(({ cut }, place) => {
-      const text = this.#text(segments, cut);
-      const row = this.#rows.get(text.key) || this.#row(segments, cut, text);
-      kept.set(text.key, row);
-      if (this.#list.children[place] !== row.parentElement) this.#list.insertBefore(row.parentElement, this.#list.children[place] || null);
+    order.forEach(({ segment, cut }, place) => {
+      const text = this.#text(cut);
+      const item = this.#rows.get(text.key) || this.#item(segment, segments[cut + 1], text);
+      kept.set(text.key, item);
+      if (this.#list.children[place] !== item) this.#list.insertBefore(item, this.#list.children[place] || null);
     });
     while (this.#list.children.length > order.length) this.#list.lastChild.remove();
     this.#rows = kept;
     if (!this.#list.querySelector('[tabindex="0"]')) stop(this.#list, 'button');
-    this.#say(order);
+    this.#say(order.map(({ segment }) => segment));
   }
 
-  #say(order) {
-    const open = order.filter(({ segment }) => this.#unchecked(segment));
-    const doubtful = open.filter(({ segment }) => this.#doubtful(segment)).length;
-    $('doubts').textContent = doubtful;
-    $('doubts').hidden = !doubtful;
+  #say(segments) {
+    const open = segments.filter((segment) => this.#isOpen(segment));
+    const doubts = open.filter(doubtful).length;
+    $('doubts').textContent = doubts;
+    $('doubts').hidden = !doubts;
     $('doubtful').disabled = !open.length;
-    $('review-hint').textContent = !order.length ? 'There are no cuts: the take is one segment.'
-      : open.length ? `${doubtful ? count(doubtful, 'cut is', 'cuts are') : 'No cut is'} in doubt. Least certain first.` : 'Every cut has been checked.';
+    $('review-hint').textContent = !segments.length ? 'There are no cuts: the take is one segment.'
+      : open.length ? `${doubts ? count(doubts, 'cut is', 'cuts are') : 'No cut is'} in doubt. Least certain first.` : 'Every cut has been checked.';
   }
 
-  /** What a row says, and a key that is another whenever the row must be. */
-  #text(segments, cut) {
-    const [before, after] = [segments[cut], segments[cut + 1]];
-    const known = this.#checked.has(before.end) ? 'checked' : before.confidence === null ? 'set by hand' : null;
-    const state = known || `${Math.round(100 * before.confidence)} %`;
-    const frame = shownFrame(before.end);
-    return { frame, state, known, key: [frame, state, before.motion, before.name, after.motion, after.name].join('\n') };
+  #text(cut) {
+    const [before, after] = this.#editor.segments.slice(cut, cut + 2);
+    return cutText(before, after, this.#checked.has(before.end));
   }
 
-  #row(segments, cut, { frame, state, known }) {
-    const [before, after] = [segments[cut], segments[cut + 1]];
-    const at = () => this.#editor.segments.findIndex((segment) => segment.end === before.end);
-    const row = make('button', { type: 'button', className: 'cut', tabIndex: -1, onclick: () => this.#choose(at()) },
-      swatch(before.motion), swatch(after.motion),
-      make('span', { className: 'name' }, `${before.name} | ${after.name}`),
-      unseen(' at frame '),
-      make('span', { className: 'from' }, frame),
-      unseen(known ? ' ' : ' certain to '),
-      make('span', { className: 'sure' }, state));
-    row.classList.toggle('open', this.#doubtful(before));
-    make('li', {}, row);
-    return row;
+  #item(before, after, text) {
+    const choose = () => this.#choose(this.#editor.segments.findIndex((segment) => segment.end === before.end));
+    return make('li', {}, cutRow(before, after, text, choose));
   }
 
   /** The row of a cut, if it is listed. */
-  #rowOf(cut) { return cut < 0 ? null : this.#rows.get(this.#text(this.#editor.segments, cut).key); }
+  #rowOf(cut) { return cut < 0 ? null : this.#rows.get(this.#text(cut).key)?.firstChild; }
 }
 
 /** Wire the tools of the list once. */

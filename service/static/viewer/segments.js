@@ -33,9 +33,9 @@ export function mergeCut(segments, index, after = false) {
 
 /** Cut at `frame`, which begins the second half. Both halves stay the motion they were. */
 export function split(segments, frame) {
-  const index = segments.findIndex((segment) => frame > segment.start && frame < segment.end);
-  if (index < 0) return segments;
+  const index = indexAt(segments, frame);
   const whole = segments[index];
+  if (frame <= whole.start || frame >= whole.end) return segments;
   return replaced(segments, index, 1,
     { ...whole, end: frame, confidence: null, repeats: [] }, { ...whole, start: frame, repeats: [] });
 }
@@ -73,6 +73,17 @@ export function readWith(document, segments) {
     return key.motion === segments[place].motion ? key : { ...key, motion: segments[place].motion };
   });
   return { ...document, segments, key_frames: keys, motions: motionsOf(segments).length };
+}
+
+/** The segment that a frame is in, by its place in the list. */
+export function indexAt(segments, frame) {
+  let low = 0;
+  let high = segments.length - 1;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (frame < segments[middle].end) high = middle; else low = middle + 1;
+  }
+  return low;
 }
 
 /** The motions there are, each once, in order. */

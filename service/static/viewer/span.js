@@ -42,4 +42,10 @@ export class Span {
     if (frame >= this.from && frame < this.to) return;
     this.set(frame - this.length * 0.1, frame + this.length * 0.9);
   }
+
+  /** While it plays, move on by pages: a curve that crawls cannot be read. */
+  follow(frame) {
+    const passed = frame >= this.to - 1 && this.to < this.frames;
+    if (passed || frame < this.from) this.set(frame, frame + this.length);
+  }
 }

@@ -23,7 +23,7 @@ export function tracks(result, signal) {
   };
   const place = () => {
     put(head, clock.frame + 0.5);
-    const { cut, segments } = result.editor || { cut: -1 };
+    const { cut, segments } = result.editor;
     if (cut >= 0) put(handle, segments[cut].end); else handle.hidden = true;
     box.classList.toggle('has-cut', cut >= 0);
   };
@@ -33,7 +33,8 @@ export function tracks(result, signal) {
     const { segments } = result.document;
     const frame = frameAt(event);
     const index = result.indexAt(Math.min(span.frames - 1, Math.floor(frame)));
-    if (result.visible() * ROOM > plot().width) return -1;
+    const visible = result.indexAt(span.to) - result.indexAt(span.from) + 1;
+    if (visible * ROOM > plot().width) return -1;
     const near = [index - 1, index].filter((cut) => cut >= 0 && cut < segments.length - 1)
       .map((cut) => [Math.abs(segments[cut].end - frame) * perFrame, cut]).sort((one, other) => one[0] - other[0])[0];
     return near && near[0] <= (NEAR[event.pointerType] || NEAR.mouse) ? near[1] : -1;
@@ -44,7 +45,7 @@ export function tracks(result, signal) {
     box.classList.toggle('on-cut', cut >= 0 && held !== 'head');
     const segment = result.document.segments[cut >= 0 ? cut : result.indexAt(frame)];
     const at = cut >= 0 && held !== 'head' ? segment.end : frame;
-    hover.textContent = `${at === frame && cut < 0 ? segment.name : 'cut'} · frame ${shownFrame(at)} · ${clockTime(result.seconds(at))}`;
+    hover.textContent = `${at === frame && cut < 0 ? segment.name : 'cut'} · frame ${shownFrame(at)} · ${clockTime(result.secondsAt(at))}`;
     hover.hidden = false;
     const { left, width } = inset();
     hover.style.transform = `translateX(${Math.max(0, Math.min(width - hover.offsetWidth, event.clientX - left + 12))}px)`;

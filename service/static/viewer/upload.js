@@ -2,9 +2,9 @@
 
 import { $ } from './dom.js';
 
-/** Call `open(files)` whenever a person gives files. */
+/** Call `open(files)` whenever a person gives files; the scene comes before its buffers. */
 export function acceptFiles(open) {
-  const given = (files) => files.length && open([...files]);
+  const given = (files) => files.length && open([...files].sort((one, other) => isScene(other) - isScene(one)));
   for (const label of [$('drop'), $('another')]) {
     const input = label.querySelector('input');
     input.addEventListener('change', () => { given(input.files); input.value = ''; });
@@ -27,3 +27,6 @@ export function acceptFiles(open) {
   });
   addEventListener('paste', (event) => event.clipboardData?.files && given(event.clipboardData.files));
 }
+
+/** 1 of a scene, whose name is the animation's, and 0 of what it needs. */
+const isScene = ({ name }) => Number(/\.(glb|gltf|npz|bvh)$/i.test(name));

@@ -10,9 +10,10 @@ import { segmentList } from './motions.js';
 import { reviewTools } from './review.js';
 import { revisionList, showRevisions } from './revisions.js';
 import { tabs } from './tabs.js';
+import { jump, loop } from './visits.js';
 
 /** `shown()` is the result on screen, or null. Answers a function to call whenever what is shown has changed. */
-export function wire({ shown, name, openRevision, note }) {
+export function wire({ shown, openRevision }) {
   playback(shown);
   view(shown);
   const showTab = tabs($('tabs'));
@@ -24,8 +25,8 @@ export function wire({ shown, name, openRevision, note }) {
   const showEdits = editBar(editor, { loadTheirs: () => openRevision(editor().saving.theirs, true) });
   const showLinks = downloads(() => {
     const { saving } = editor();
-    return { id: shown().document.id, name: name(), revision: saving.shown, dirty: saving.open, keep: () => saving.flush() };
-  }, note);
+    return { id: shown().document.id, name: shown().status.name, revision: saving.shown, dirty: saving.open, keep: () => saving.flush() };
+  });
   addEventListener('beforeunload', (event) => { if (editor()?.saving.open) event.preventDefault(); });
   addEventListener('visibilitychange', () => { if (document.hidden && editor()?.saving.kind === 'waiting') editor().saving.flush().catch(() => {}); });
   let listed = '';
@@ -46,10 +47,10 @@ function playback(shown) {
   const on = (id, event, action) => $(id).addEventListener(event, action);
   const frame = $('frame');
   on('play', 'click', () => shown().clock.toggle());
-  on('previous', 'click', () => shown().jump(-1));
-  on('next', 'click', () => shown().jump(1));
+  on('previous', 'click', () => jump(shown(), -1));
+  on('next', 'click', () => jump(shown(), 1));
   on('speed', 'change', (event) => { shown().clock.speed = Number(event.target.value); });
-  on('loop', 'change', (event) => shown().loop(event.target.checked));
+  on('loop', 'change', (event) => loop(shown(), event.target.checked));
   on('frame', 'focus', () => frame.select());
   on('frame', 'keydown', (event) => { if (event.key === 'Enter' || event.key === 'Escape') frame.blur(); });
   on('frame', 'change', () => {
