@@ -85,3 +85,12 @@ def smooth(tmp_path_factory: pytest.TempPathFactory) -> Path:
     code = "import sys; from samples.figures import figure; sys.stdout.buffer.write(figure('smooth').glb)"
     path.write_bytes(subprocess.run([sys.executable, "-c", code], check=True, capture_output=True).stdout)
     return path
+
+
+@pytest.fixture(scope="module")
+def own(smooth: Path, tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureRequest) -> Path:
+    """The same figure with its take called otherwise, so another animation: its edits no other module sees."""
+    path = tmp_path_factory.mktemp("files") / "own.glb"
+    called = request.module.__name__.rpartition("_")[2][:4].encode()
+    path.write_bytes(smooth.read_bytes().replace(b'"take"', b'"%s"' % called, 1))
+    return path

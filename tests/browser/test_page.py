@@ -10,17 +10,9 @@ from playwright.sync_api import Page, expect
 
 from core.formats.header import read_header
 from core.limits import Limits
+from tests.browser.journeys import opened
 
 pytestmark = pytest.mark.timeout(240)
-
-
-def opened(page: Page, file: Path) -> str:
-    """Choose a file on the first page and wait for its result; answers the address."""
-    page.goto("/")
-    page.locator("#drop input").set_input_files(file)
-    expect(page.locator("#curve canvas")).to_be_visible(timeout=90_000)
-    expect(page.locator("#figure")).to_have_attribute("data-shown", re.compile("gltf|vertices"), timeout=30_000)
-    return page.url
 
 
 @pytest.fixture(scope="module")
@@ -173,13 +165,6 @@ def test_a_vertex_sequence_plays_from_its_blocks(page: Page, tmp_path: Path) -> 
     expect(page.locator("#frame")).to_have_value(str(frames - 1))
     page.wait_for_timeout(500)
     assert np.abs(figure_pixels(page) - first).max() > 30
-
-
-def test_the_page_fits_a_phone(result: Page) -> None:
-    """Nothing sticks out to the side at 360 pixels."""
-    result.set_viewport_size({"width": 360, "height": 740})
-    result.wait_for_timeout(200)
-    assert result.evaluate("document.documentElement.scrollWidth") <= 360
 
 
 def test_the_file_comes_back_in_clips(page: Page, smooth: Path, tmp_path: Path) -> None:

@@ -99,6 +99,22 @@ def test_playing_ends_with_the_take_and_waits_for_what_is_not_there(answer) -> N
     assert seen == [[99, False], [10, 19], 0, True]
 
 
+def test_a_name_is_shortened_to_what_there_is_room_for(answer) -> None:
+    """What does not fit ends in three dots and keeps its mark; where not even that fits, nothing is written."""
+    assert answer("""
+        import { fitted } from 'VIEWER/timeline.js';
+        const context = { measureText: (text) => ({ width: 10 * [...text].length }) };
+        console.log(JSON.stringify([200, 110, 60, 30, 15].map((room) => fitted(context, 'walk forward', ' ↻', room))));
+    """) == ["walk forward ↻", "walk for… ↻", "wal… ↻", "", ""]
+
+
+def test_a_frame_is_in_one_segment(answer) -> None:
+    """The first of a segment is in it, the one before is not."""
+    assert answer(f"""{SEGMENTS}
+        console.log(JSON.stringify([0, 9, 10, 29, 30, 39].map((frame) => edits.indexAt(all, frame))));
+    """) == [0, 0, 1, 2, 3, 3]
+
+
 SEGMENTS = """
     import * as edits from 'VIEWER/segments.js';
     const one = (start, end, motion, name) => ({ start, end, motion, name, confidence: 0.9, repeats: [] });

@@ -8,7 +8,7 @@ import { colourOf } from './palette.js';
 import { thinned } from './thinning.js';
 
 const AXIS = 46;
-const RIGHT = 12;
+const RIGHT = 18; // room for half of the last number
 
 export class Curve {
   #plot; #box; #span; #document; #width;

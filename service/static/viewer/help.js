@@ -9,11 +9,11 @@ const KEYS = [
   ]],
   ['Cuts', [
     ['[ ]', 'select the cut before or after'], ['← →', 'move the selected cut a frame; with Shift ten'],
-    ['M', 'merge over it; with Shift, as the motion after it'], ['Esc', 'let go of it'], ['S', 'split at the playhead'],
+    ['M Del', 'merge over it; with Shift, as the motion after it'], ['Esc', 'let go of it'], ['S', 'split at the playhead'],
   ]],
   ['Segments', [['R', 'rename the motion'], ['O', 'its clip loops'], ['X', 'discard it'], ['Ctrl Z', 'undo'], ['Ctrl Shift Z', 'redo']]],
   ['Review', [['N', 'the next doubtful cut'], ['P', 'play a second around it'], ['C', 'checked, and on']]],
-  ['View', [['+ −', 'zoom in or out'], ['0', 'the whole take'], ['F', 'frame the figure'], ['?', 'these keys']]],
+  ['View', [['+ −', 'zoom in or out'], ['0', 'the whole take'], ['F', 'the whole figure'], ['?', 'these keys']]],
 ];
 
 /** Wire the overlay once; answers a function that opens it. */

@@ -1,6 +1,7 @@
 // The page by keyboard alone. A key that types into a field is the field's.
 
 import { $ } from './dom.js';
+import { isPointed } from './pointed.js';
 import { jump } from './visits.js';
 
 /** `shown()` is the result on screen, or null; `askHelp` opens the list of keys. */
@@ -31,6 +32,8 @@ export function keyboard(shown, askHelp) {
     ']': () => shown().editor.selectNext(1),
     Escape: () => shown().editor.select(-1),
     m: (event) => shown().editor.merge(event.shiftKey),
+    Delete: (event) => shown().editor.merge(event.shiftKey),
+    Backspace: (event) => shown().editor.merge(event.shiftKey),
     s: () => shown().editor.split(),
     r: () => { $('motion-name').focus(); $('motion-name').select(); },
     o: () => shown().editor.flag('loop'),
@@ -42,20 +45,26 @@ export function keyboard(shown, askHelp) {
     f: click('reframe'),
   };
   addEventListener('keydown', (event) => {
-    const { target } = event;
-    const field = target.matches('input:not([type=radio]):not([type=checkbox]), select, textarea');
-    if (document.querySelector('dialog[open]') || event.altKey) return;
-    if (event.ctrlKey || event.metaKey) return field ? undefined : history(event, shown);
-    if (field) return;
+    if (event.altKey || document.querySelector('dialog[open]') || isOwn(event)) return;
+    if (event.ctrlKey || event.metaKey) return history(event, shown);
     if (event.key === '?') return askHelp();
-    if (!shown()) return;
-    if ([' ', 'Enter'].includes(event.key) && target.matches('button, a, label, summary, input')) return;
-    if (event.key.startsWith('Arrow') && target.matches('input[type=radio]')) return;
     const action = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-    if (!action) return;
+    if (!shown() || !action) return;
     event.preventDefault();
     action(event);
   });
+  addEventListener('keyup', (event) => { // when some browsers press a button
+    if (event.key === ' ' && shown() && !isOwn(event)) event.preventDefault();
+  });
+}
+
+/** Whether a key is for the control that has the focus: it types, chooses or presses there. */
+function isOwn({ key, target }) {
+  if (target.matches('input:not([type=radio]):not([type=checkbox]), textarea')) return true;
+  if (key === ' ' && isPointed(target)) return false;
+  if (target.matches('select')) return true;
+  if (key.startsWith('Arrow')) return target.matches('input[type=radio]');
+  return [' ', 'Enter'].includes(key) && target.matches('button, a, label, summary, input');
 }
 
 /** Ctrl+Z, Ctrl+Shift+Z and Ctrl+Y. */

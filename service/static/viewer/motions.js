@@ -19,7 +19,7 @@ export class SegmentList {
     const whole = before.length !== document.segments.length || this.#counted !== countsFrom();
     this.#document = document;
     this.#counted = countsFrom();
-    $('column-frames').textContent = this.#counted ? 'frames · lasts' : 'from · lasts';
+    $('column-frames').textContent = this.#counted ? 'frames' : 'from';
     if (whole) return this.#fill();
     document.segments.forEach((segment, index) => {
       if (segment === before[index]) return;
@@ -56,7 +56,7 @@ export class SegmentList {
     const place = this.#counted ? shownInterval(segment.start, segment.end) : shownFrame(segment.start);
     const row = make('button', { type: 'button', className: 'segment', tabIndex: -1, onclick: () => this.#go(index) },
       swatch(segment.motion),
-      make('span', { className: 'name' }, segment.name),
+      make('span', { className: 'name', title: segment.name }, segment.name),
       unseen(this.#counted ? ' frames ' : ' from frame '),
       make('span', { className: 'from' }, place),
       unseen(' lasts '),

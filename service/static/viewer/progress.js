@@ -14,7 +14,7 @@ export function beginProgress(name) {
 }
 
 /** Show a stage, and how much of it is done (null where nobody knows). */
-export function progress(stage, fraction = null, note = '') {
+export function progress(stage, fraction = null, note = fraction === null ? '' : `${Math.round(100 * fraction)} %`) {
   const words = stageInWords(stage);
   if (words && stages.at(-1) !== words) {
     stages.push(words);

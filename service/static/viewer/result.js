@@ -62,7 +62,6 @@ export class Result {
   /** A cut was selected, or let go of (-1). */
   selected(cut) {
     document.body.classList.toggle('cut-selected', cut >= 0);
-    if (cut >= 0) $('edit').scrollLeft = $('cut-before').offsetLeft - $('edit').offsetLeft; // on a phone the row is wider than the screen
     this.#moment();
   }
 

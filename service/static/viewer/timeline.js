@@ -4,6 +4,9 @@ import { onceAFrame, onResize, onTheme, sharp, styled } from './dom.js';
 import { colourOf, fillOf, inkOn } from './palette.js';
 
 const GAP = 1;
+const APART = 8; // pixels between the notches of repetitions
+const NOTCH = 5; // pixels high
+const LEAST = 24; // pixels that a shortened name needs
 
 export class Timeline {
   #canvas; #span; #plot; #document; #current = -1;
@@ -59,15 +62,27 @@ export class Timeline {
     context.globalAlpha = segment.discard ? 0.3 : this.#current < 0 || here ? 1 : 0.82;
     context.fillRect(left + gap / 2, top, Math.max(0.5, wide - gap), height - 2 * top);
     context.globalAlpha = 1;
+    this.#beats(context, segment, left, right, height - top);
     this.#label(context, segment, left, right, height);
+  }
+
+  /** A notch where each repetition begins after the first, if there is room for them. */
+  #beats(context, { repeats, start, end, motion }, left, right, bottom) {
+    const perFrame = (right - left) / (end - start);
+    if (repeats.length < 2 || (right - left) / repeats.length < APART) return;
+    context.fillStyle = inkOn(colourOf(motion));
+    context.globalAlpha = 0.5;
+    for (const repeat of repeats.slice(1)) context.fillRect(Math.round(left + (repeat.start - start) * perFrame), bottom - NOTCH, 1, NOTCH);
+    context.globalAlpha = 1;
   }
 
   #label(context, segment, left, right, height) {
     const from = Math.max(left, this.#plot().left);
     const room = Math.min(right, this.#plot().left + this.#plot().width) - from;
-    const text = `${segment.name}${segment.loop ? ' ↻' : ''}`;
+    const mark = segment.loop ? ' ↻' : '';
+    const text = fitted(context, segment.name, mark, room - 8);
+    if (!text) return;
     const size = context.measureText(text).width;
-    if (room < size + 8) return;
     const colour = colourOf(segment.motion);
     const x = from + Math.min(8, (room - size) / 2);
     if (segment.motion >= 12) { // a plate, so that a texture never runs through the name
@@ -77,4 +92,18 @@ export class Timeline {
     context.fillStyle = segment.discard ? styled('--ink') : inkOn(colour);
     context.fillText(text, x, height / 2 + 0.5);
   }
+}
+
+/** As much of a name, and the mark after it, as `room` pixels hold; nothing where not even two letters would stand. */
+export function fitted(context, name, mark, room) {
+  const wide = (text) => context.measureText(text).width;
+  if (room < LEAST) return wide(name + mark) <= room ? name + mark : '';
+  const letters = [...name];
+  let kept = letters.length;
+  let text = name + mark;
+  while (wide(text) > room && kept > 2) {
+    kept = Math.max(2, Math.min(kept - 1, Math.floor((kept * room) / wide(text))));
+    text = `${letters.slice(0, kept).join('')}…${mark}`;
+  }
+  return wide(text) <= room ? text : '';
 }

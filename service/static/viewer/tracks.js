@@ -45,7 +45,8 @@ export function tracks(result, signal) {
     box.classList.toggle('on-cut', cut >= 0 && held !== 'head');
     const segment = result.document.segments[cut >= 0 ? cut : result.indexAt(frame)];
     const at = cut >= 0 && held !== 'head' ? segment.end : frame;
-    hover.textContent = `${at === frame && cut < 0 ? segment.name : 'cut'} · frame ${shownFrame(at)} · ${clockTime(result.secondsAt(at))}`;
+    const what = at === frame && cut < 0 ? segment.name + repetition(segment, frame) : 'cut';
+    hover.textContent = `${what} · frame ${shownFrame(at)} · ${clockTime(result.secondsAt(at))}`;
     hover.hidden = false;
     const { left, width } = inset();
     hover.style.transform = `translateX(${Math.max(0, Math.min(width - hover.offsetWidth, event.clientX - left + 12))}px)`;
@@ -80,4 +81,10 @@ export function tracks(result, signal) {
   span.listen(place);
   onResize(box, place, signal);
   return place;
+}
+
+/** Which repetition of its motion a frame is in, in words, where there are several. */
+function repetition({ repeats }, frame) {
+  const at = repeats.findLastIndex(({ start }) => start <= frame);
+  return repeats.length > 1 && at >= 0 ? `, ${at + 1} of ${repeats.length}` : '';
 }

@@ -1,0 +1,80 @@
+"""Leaving what is on screen: for another number of motions, another take, or while something is on its way."""
+
+import re
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.journeys import opened, saved
+
+pytestmark = pytest.mark.timeout(240)
+
+
+@pytest.fixture(scope="module")
+def result(kept_page: Page, own: Path) -> Page:
+    """The result of our own figure."""
+    opened(kept_page, own)
+    return kept_page
+
+
+def test_a_click_leaves_space_to_playing(result: Page) -> None:
+    """Who has clicked a row or a button means by Space to play; who came by the Tab key means the button."""
+    result.locator("#segments button").nth(1).click()
+    result.keyboard.press("Space")
+    expect(result.locator("#play")).to_have_attribute("aria-label", "Pause")
+    result.keyboard.press("Space")
+    expect(result.locator("#play")).to_have_attribute("aria-label", "Play")
+    result.locator("#split").focus()
+    result.keyboard.press("Shift+Tab")
+    result.keyboard.press("Space")
+    expect(result.locator("#flag-discard")).to_have_attribute("aria-pressed", "true")
+    result.keyboard.press("Control+z")
+    expect(result.locator("#play")).to_have_attribute("aria-label", "Play")
+
+
+def test_another_cut_says_where_the_edits_are(result: Page) -> None:
+    """Edits belong to the cut they were made in; going back shows them again."""
+    result.locator("#flag-loop").click()
+    saved(result)
+    result.locator("#motions").fill("2")
+    result.locator("#motions").press("Enter")
+    expect(result.locator("#controls-note")).to_contain_text("Now 2 motions")
+    expect(result.locator("#controls-note")).to_contain_text("Your edits are of the cut before")
+    result.go_back()
+    expect(result.locator("#flag-loop")).to_have_attribute("aria-pressed", "true")
+
+
+def test_a_cut_that_is_refused_leaves_the_form_as_the_result_is(result: Page) -> None:
+    """What is shown was not made with what could not be had."""
+    result.route("**/v1/segmentations", lambda route: route.abort())
+    result.locator("#method").select_option("spectral")
+    expect(result.locator("#controls-note")).to_contain_text("does not answer")
+    expect(result.locator("#method")).to_have_value("switching")
+    result.unroute("**/v1/segmentations")
+
+
+def test_edits_that_cannot_be_kept_are_not_left_by_mistake(result: Page) -> None:
+    """Who does not want to leave stays, with the edits and the address they are of."""
+    result.route("**/revisions", lambda route: route.abort() if route.request.method == "POST" else route.continue_())
+    result.locator("#flag-discard").click()
+    expect(result.locator("#kept-word")).to_contain_text("Not saved")
+    address = result.url.split("#")[0]
+    result.once("dialog", lambda dialog: dialog.dismiss())
+    result.evaluate("history.pushState(null, '', '/'); dispatchEvent(new PopStateEvent('popstate'))")
+    result.wait_for_url(f"{address}**")
+    expect(result.locator("#flag-discard")).to_have_attribute("aria-pressed", "true")
+    result.unroute("**/revisions")
+    result.get_by_role("button", name="Try again").click()
+    saved(result)
+
+
+def test_no_longer_waiting_for_a_finished_result_does_not_delete_it(page: Page, own: Path) -> None:
+    """To cancel is for what runs; what is done and slow to arrive is left alone."""
+    identifier = opened(page, own).partition("/view/")[2].partition("#")[0]
+    page.route(re.compile(r"/result(\?|$)"), lambda route: None)  # an answer that does not come
+    page.goto(f"/view/{identifier}")
+    expect(page.locator("#waiting-name")).to_have_text(own.name)
+    page.locator("#waiting-cancel").click()
+    expect(page.locator("#drop")).to_be_visible()
+    assert page.request.get(f"/v1/segmentations/{identifier}").json()["status"] == "done"

@@ -1,0 +1,84 @@
+"""The page on a phone, on a tablet and in forced colours: nothing sticks out, and what is chosen is seen."""
+
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.journeys import opened
+
+pytestmark = pytest.mark.timeout(240)
+
+LONG = "walk forward with a heavy limp and turn"
+STICKING_OUT = """() => [...document.querySelectorAll('header *, #stage *, #deck *, #side *')]
+    .filter((one) => one.getClientRects().length && !one.closest('.unseen, #hover, svg'))
+    .filter((one) => {
+        const { left, right } = one.getBoundingClientRect();
+        const around = one.closest('header, #stage, #deck, #side').getBoundingClientRect();
+        return left < around.left - 1 || right > around.right + 1;
+    }).map((one) => `${one.localName} ${one.id || one.className || one.parentElement.id}`)"""
+
+
+@pytest.fixture(scope="module")
+def result(kept_page: Page, own: Path) -> Page:
+    """The result of our own figure, with a motion of a long name."""
+    opened(kept_page, own)
+    kept_page.locator("#motion-name").fill(LONG)
+    kept_page.locator("#motion-name").press("Enter")
+    return kept_page
+
+
+@pytest.mark.parametrize("width", [360, 400, 820, 1280])
+def test_nothing_sticks_out_of_its_part_of_the_page(result: Page, width: int) -> None:
+    """With names as long as they get, while a moment is shown and while a cut is."""
+    result.set_viewport_size({"width": width, "height": 800})
+    for key in ("Escape", "]"):
+        result.keyboard.press(key)
+        result.wait_for_timeout(200)
+        assert result.evaluate("document.documentElement.scrollWidth") <= width
+        assert result.evaluate(STICKING_OUT) == []
+    expect(result.locator("#merge")).to_be_in_viewport()
+
+
+def test_a_cut_is_chosen_moved_and_merged_with_a_thumb(result: Page) -> None:
+    """On a phone the tools of the cut take the place of the segment's, and go with it."""
+    result.set_viewport_size({"width": 360, "height": 740})
+    result.keyboard.press("Escape")
+    expect(result.locator("#merge")).to_be_hidden()
+    result.locator("#cut-after").click()
+    expect(result.locator("#motion-name")).to_be_hidden()
+    frame = int(result.locator("#cut-frame").input_value())
+    result.locator("#nudge-on").click()
+    expect(result.locator("#cut-frame")).to_have_value(str(frame + 1))
+    segments = result.locator("#segments li").count()
+    result.locator("#merge").click()
+    expect(result.locator("#segments li")).to_have_count(segments - 1)
+    expect(result.locator("#motion-name")).to_be_visible()
+    result.locator("#undo").click()
+    expect(result.locator("#segments li")).to_have_count(segments)
+
+
+def test_a_phone_shows_one_face_at_a_time(page: Page) -> None:
+    """The first page and a refusal have nothing of the player below them."""
+    page.set_viewport_size({"width": 360, "height": 740})
+    for address, shown in (("/", "#drop"), ("/view/aaaaaaaaaaaaaaaaaaaaaaaaaa", "#refused-detail")):
+        page.goto(address)
+        expect(page.locator(shown)).to_be_visible()
+        expect(page.locator("#deck")).to_be_hidden()
+
+
+def test_what_is_chosen_is_seen_in_forced_colours(result: Page) -> None:
+    """Where the system sets all colours, the row that plays, the tab and the playhead still stand out."""
+    result.set_viewport_size({"width": 1100, "height": 720})
+    result.keyboard.press("Escape")
+    result.emulate_media(forced_colors="active")
+    background = "(selector) => getComputedStyle(document.querySelector(selector)).backgroundColor"
+    for chosen, other in (
+        ("#segments [aria-current]", "#segments button:not([aria-current])"),
+        ("#tab-segments", "#tab-review"),
+        ("#looks :checked + span", "#looks :not(:checked) + span"),
+        ("#playhead", "#deck"),
+        ("#segments .swatch", "#side"),
+    ):
+        assert result.evaluate(background, chosen) != result.evaluate(background, other), chosen
+    result.emulate_media(forced_colors="none")
