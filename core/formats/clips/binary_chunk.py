@@ -32,6 +32,15 @@ class BinaryChunk:
             self._end = at + len(data)
         return room, at - room.start
 
+    def patch(self, start: int, data: bytes) -> None:
+        """Put other bytes over some that are there."""
+        self._patches.append((start, data))
+
+    @property
+    def roomiest(self) -> int:
+        """Bytes of the largest room between what stays."""
+        return max((room.end - room.next for room in self._rooms), default=0)
+
     @property
     def length(self) -> int:
         """Bytes, without padding."""

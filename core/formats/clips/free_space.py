@@ -37,28 +37,28 @@ def free_ranges(json: dict[str, Any], freed: Iterable[int], windows: Iterable[di
     accessors: list[dict[str, Any]] = json.get("accessors", [])
     gone = [accessors[number] for number in freed]
     kept = [accessor for number, accessor in enumerate(accessors) if number not in freed]
-    touched = {view for accessor in gone for view, _, _ in _places(accessor)}
+    touched = {view for accessor in gone for view, _, _ in places(accessor)}
     opaque = touched & _opaque_views(json)
     views = json.get("bufferViews", [])
     free = [
         r
         for a in gone
-        for view, start, size in _places(a)
+        for view, start, size in places(a)
         if view not in opaque
         for r in [_at(views, view, start, size)]
     ]
-    used = [r for a in [*kept, *windows] for view, start, size in _places(a) for r in [_at(views, view, start, size)]]
-    used += [r for number in set(range(len(views))) - touched | opaque for r in _whole(views[number])]
-    return list(_without(_joined(free), _joined(used)))
+    used = [r for a in [*kept, *windows] for view, start, size in places(a) for r in [_at(views, view, start, size)]]
+    used += [r for number in set(range(len(views))) - touched | opaque for r in whole_view(views[number])]
+    return list(_without(joined(free), joined(used)))
 
 
 def unused_views(json: dict[str, Any], freed: Iterable[int], windows: Iterable[dict[str, Any]]) -> list[int]:
     """Views that only freed accessors named."""
     freed = set(freed)
     accessors = list(enumerate(json.get("accessors", [])))
-    before = {view for number, accessor in accessors if number in freed for view, _, _ in _places(accessor)}
-    after = {view for number, accessor in accessors if number not in freed for view, _, _ in _places(accessor)}
-    after |= {view for accessor in windows for view, _, _ in _places(accessor)}
+    before = {view for number, accessor in accessors if number in freed for view, _, _ in places(accessor)}
+    after = {view for number, accessor in accessors if number not in freed for view, _, _ in places(accessor)}
+    after |= {view for accessor in windows for view, _, _ in places(accessor)}
     return sorted(before - after - _opaque_views(json))
 
 
@@ -76,13 +76,18 @@ def numbers_in_extensions(value: Any, within: bool = False) -> Iterator[int]:
 
 
 def _opaque_views(json: dict[str, Any]) -> set[int]:
-    """Views with images, with elements apart, or that an extension compresses or may name: not looked into."""
-    named = {image["bufferView"] for image in json.get("images", []) if "bufferView" in image}
+    """Views with elements apart, compressed, in another buffer, or named by others: not looked into."""
     odd = {
         n for n, v in enumerate(json.get("bufferViews", [])) if {"extensions", "byteStride"} & v.keys() or v["buffer"]
     }
+    return odd | views_of_others(json)
+
+
+def views_of_others(json: dict[str, Any]) -> set[int]:
+    """Views with images, matrices or geometry in Draco's form, or that an extension may name."""
+    images = {image["bufferView"] for image in json.get("images", []) if "bufferView" in image}
     matrices = {a.get("bufferView", -1) for a in json.get("accessors", []) if a["type"].startswith("MAT")}
-    return named | odd | matrices | _compressed(json) | set(numbers_in_extensions(json))
+    return images | matrices | _compressed(json) | set(numbers_in_extensions(json))
 
 
 def _compressed(json: dict[str, Any]) -> set[int]:
@@ -98,7 +103,7 @@ def _accessors_of(animations: Iterable[dict[str, Any]]) -> Iterator[int]:
             yield from (sampler[name] for name in ("input", "output") if name in sampler)
 
 
-def _places(accessor: dict[str, Any]) -> Iterator[tuple[int, int, int]]:
+def places(accessor: dict[str, Any]) -> Iterator[tuple[int, int, int]]:
     """View, offset in it and size of what an accessor is made of."""
     element = WIDTHS[accessor["type"]] * _size(accessor["componentType"])
     if "bufferView" in accessor:
@@ -119,14 +124,14 @@ def _at(views: list[dict[str, Any]], view: int, start: int, size: int) -> Range:
     return begin, begin + size
 
 
-def _whole(view: dict[str, Any]) -> Iterator[Range]:
+def whole_view(view: dict[str, Any]) -> Iterator[Range]:
     """The bytes of a view in the binary chunk, and those it is decompressed from."""
     for part in (view, *view.get("extensions", {}).values()):
         if isinstance(part, dict) and part.get("buffer") == 0 and "byteLength" in part:
             yield part.get("byteOffset", 0), part.get("byteOffset", 0) + part["byteLength"]
 
 
-def _joined(ranges: Iterable[Range]) -> list[Range]:
+def joined(ranges: Iterable[Range]) -> list[Range]:
     """The same bytes as few ranges, in order and apart."""
     joined: list[Range] = []
     for start, end in sorted(ranges):

@@ -9,17 +9,14 @@ import numpy as np
 from jaxtyping import Float, Shaped
 
 from core.formats.clips.animation_only import without_meshes
-from core.formats.clips.binary_chunk import BinaryChunk
-from core.formats.clips.free_space import free_ranges, freed_accessors, unused_views
+from core.formats.clips.free_space import freed_accessors
+from core.formats.clips.placement import UNUSED, NewAccessor, placed
 from core.formats.clips.self_contained import SelfContained
 from core.formats.gltf.accessors import Accessors, Layout
 from core.formats.gltf.document import Document
 from core.formats.gltf.writer import COMPONENTS
 from core.formats.read import main_part
 from core.limits import Limits
-
-UNUSED = {"componentType": 5126, "count": 1, "type": "SCALAR"}
-"""What stands in the place of an accessor that is gone, so that the numbers of the others stay."""
 
 
 class Replacement:
@@ -36,7 +33,7 @@ class Replacement:
         self._bare = animation_only
         self._freed: list[int] = []
         self._slots: list[int] = []
-        self._entries: list[tuple[int, dict[str, Any], bytes | None, int]] = []
+        self._new: list[NewAccessor] = []
         self._known: dict[tuple[Any, ...], int] = {}
         self._staying: list[int] = []
         self._added: dict[int, list[dict[str, Any]]] = {}
@@ -80,7 +77,8 @@ class Replacement:
     def pieces(self) -> Iterator[bytes]:
         """The GLB."""
         root = self._file.json
-        chunk = self._placed()
+        freed = [number for number in self._freed if number < len(root.get("accessors", []))]
+        chunk = placed(self._file, self.accessors, freed, self._new)
         root["animations"] = self._ordered()
         if chunk.length:
             root["buffers"][0]["byteLength"] = chunk.length
@@ -109,7 +107,7 @@ class Replacement:
             else:
                 number = len(accessors)
                 accessors.append(UNUSED)
-            self._entries.append((number, accessor, data, row))
+            self._new.append(NewAccessor(number, accessor, data, row))
             self._known[key] = number
         return self._known[key]
 
@@ -121,33 +119,6 @@ class Replacement:
             for number in range(len(self.document.animations))
             for animation in [*([staying[number]] if number in staying else []), *self._added.get(number, [])]
         ]
-
-    def _placed(self) -> BinaryChunk:
-        """Write the new accessors into the JSON and their bytes into room that is free."""
-        root = self._file.json
-        windows = [accessor for _, accessor, data, _ in self._entries if data is None]
-        freed = [number for number in self._freed if number < len(root.get("accessors", []))]
-        chunk = BinaryChunk(self._file.pieces, self._file.length, free_ranges(root, freed, windows))
-        spare = unused_views(root, freed, windows)
-        views = root.setdefault("bufferViews", [])
-        for number in freed:
-            root["accessors"][number] = dict(UNUSED)
-        for number in spare:
-            views[number] = {"buffer": 0, "byteLength": 1}
-        for number, accessor, data, row in sorted(self._entries, key=lambda entry: -entry[-1]):
-            if data is not None:
-                room, offset = chunk.put(data, row)
-                if room.view is None:
-                    room.view = {"buffer": 0, "byteOffset": room.start}
-                    room.number = spare.pop() if spare else len(views)
-                    views[room.number : room.number + 1] = [room.view]
-                room.view["byteLength"] = offset + len(data)
-                accessor.update({"bufferView": room.number, **({"byteOffset": offset} if offset else {})})
-            root["accessors"][number] = accessor
-        for view in views:  # of a take that lay last only parts may have stayed
-            if view["buffer"] == 0:
-                view["byteLength"] = min(view["byteLength"], chunk.length - view.get("byteOffset", 0))
-        return chunk
 
 
 def _text(root: dict[str, Any]) -> bytes:

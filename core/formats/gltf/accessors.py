@@ -98,6 +98,10 @@ class Accessors:
         """The bytes of a buffer view that is no list of elements."""
         return self._buffers.view(number)
 
+    def stream(self, number: int) -> memoryview:
+        """The bytes of a buffer view as they lie in the file, compressed where it is."""
+        return self._buffers.stream(number)
+
     def _layout(self, index: int) -> Layout:
         entry = self._document.accessors[index]
         kind = entry.choice("type", tuple(WIDTHS))

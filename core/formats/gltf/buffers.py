@@ -35,6 +35,11 @@ class Buffers:
             self._decoded[index] = decode(packed, self._piece(packed))
         return self._decoded[index]
 
+    def stream(self, index: int) -> memoryview:
+        """The bytes that a compressed view is decoded from."""
+        packed = self._document.views[index].extension(*sorted(COMPRESSED))
+        return self._piece(packed or self._document.views[index])
+
     def _piece(self, view: Entry) -> memoryview:
         number = view.index("buffer", len(self._document.buffers), "buffers")
         data = self.buffer(number)

@@ -86,6 +86,34 @@ def test_packed_files_grow_by_their_json_alone(shared, name):
     assert len(glb) - len(data) <= (200 * channels + 400) * len(cuts)
 
 
+@pytest.mark.parametrize(
+    ("name", "most"),
+    [("draco", 1.1), ("quantized", 1.1), ("sparse", 1.1), ("meshopt_medium", 1.1), ("meshopt_high", 1.7)],
+)
+def test_packed_files_cut_between_keys(shared, name, most):
+    """Their binary data hardly grows, but where keys were integers, which become floats; compressed ones stay so."""
+    data = (shared / "data/gltf/variants" / f"Fox_{name}.glb").read_bytes()
+    take = opened(data, fps=29)
+    document = cut_at(take, [take.frames // 4, take.frames // 2])
+    glb = clips_of(data, document)
+    assert len(chunks_of(glb)[1]) <= most * len(chunks_of(data)[1])
+    assert worst_miss(take, glb, document) <= CLOSE
+
+
+def test_three_js_decompresses_what_was_cut_between_keys(shared, node, oracle, tmp_path):
+    """New streams by its own decoder, every vertex of every clip; and the takes whose stream was told again."""
+    path = shared / "data/gltf/variants/Fox_meshopt_medium.glb"
+    document = cut_at(opened(path.read_bytes(), fps=29), [21, 48])
+    (tmp_path / "clips.glb").write_bytes(clips_of(path.read_bytes(), document))
+    starts = [0, 21, 48, 0, 0]
+    for number, (start, take) in enumerate(zip(starts, [0, 0, 0, 1, 2], strict=True)):
+        whole, _ = seen(node, oracle, path, tmp_path / "take", take, 58)
+        clip, _ = seen(node, oracle, tmp_path / "clips.glb", tmp_path / "clip", number, 58)
+        expected = whole[2 * start :][: len(clip)]
+        diagonal = np.linalg.norm(np.ptp(whole, axis=(0, 1)))
+        assert np.abs(clip[: len(expected)] - expected).max() <= CLOSE * diagonal
+
+
 def test_morphs_of_many_targets_stay_sparse(shared):
     """Horse's targets are sparse: their accessors and bytes are those of the file."""
     data = (shared / "data/gltf/Horse.glb").read_bytes()

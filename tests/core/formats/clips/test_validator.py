@@ -101,3 +101,11 @@ def test_clips_of_models_are_valid(shared, faults, name):
     glb = clips_of(data, cut_at(take, [take.frames // 3, take.frames // 2]))
     assert [fault for fault in faults(glb) if fault.split()[0] not in before] == []
     assert len(glb) <= 1.1 * len(data)
+
+
+@pytest.mark.parametrize("name", ["draco", "quantized", "sparse", "meshopt_medium", "meshopt_high"])
+def test_clips_of_packed_files_are_valid(shared, faults, name):
+    """Cut between keys: what was compressed is compressed again."""
+    data = (shared / "data/gltf/variants" / f"Fox_{name}.glb").read_bytes()
+    glb = clips_of(data, cut_at(opened(data, fps=29), [21, 48]))
+    assert faults(data) == faults(glb) == []

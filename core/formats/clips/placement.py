@@ -1,0 +1,112 @@
+"""Where the arrays of the clips go: into room that the take has left, and compressed where the file is."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from typing import Any
+
+from core.formats.clips.binary_chunk import BinaryChunk
+from core.formats.clips.free_space import free_ranges, joined, unused_views
+from core.formats.clips.packing import Compression, Strip, compression_of
+from core.formats.clips.self_contained import SelfContained
+from core.formats.clips.streams import WORTH, shortened
+from core.formats.gltf.accessors import Accessors
+
+UNUSED = {"componentType": 5126, "count": 1, "type": "SCALAR"}
+"""What stands in the place of an accessor that is gone, so that the numbers of the others stay."""
+
+
+@dataclass(frozen=True)
+class NewAccessor:
+    """Its number and its JSON; `data` in rows of so many bytes, one a key, or None where it is a window."""
+
+    number: int
+    json: dict[str, Any]
+    data: bytes | None
+    row: int
+
+
+def placed(file: SelfContained, accessors: Accessors, freed: Sequence[int], new: Sequence[NewAccessor]) -> BinaryChunk:
+    """Write new accessors and their views into the JSON, and their bytes into what is returned.
+
+    Accessors `freed` are gone, and so are the bytes that none but them named.
+    """
+    root = file.json
+    windows = [accessor.json for accessor in new if accessor.data is None]
+    streams = shortened(root, accessors, freed, windows)
+    left = [(stream.start + len(stream.data), stream.end) for stream in streams]
+    chunk = BinaryChunk(file.pieces, file.length, joined([*free_ranges(root, freed, windows), *left]))
+    spare = sorted([*unused_views(root, freed, windows), *(stream.view for stream in streams if not stream.data)])
+    views = root.setdefault("bufferViews", [])
+    for stream in streams:
+        stream.extension["byteLength"] = len(stream.data)
+        chunk.patch(stream.start, stream.data)
+    for number in freed:
+        root["accessors"][number] = dict(UNUSED)
+    for number in spare:
+        views[number] = {"buffer": 0, "byteLength": 1}
+    for accessor in new:
+        root["accessors"][accessor.number] = accessor.json
+    _put(root, chunk, spare, (accessor for accessor in new if accessor.data is not None))
+    for view in views:  # of a take that lay last only parts may have stayed
+        if view["buffer"] == 0:
+            view["byteLength"] = min(view["byteLength"], chunk.length - view.get("byteOffset", 0))
+    return chunk
+
+
+class _Views:
+    """The views of the file, and numbers of those that nobody names any more."""
+
+    def __init__(self, views: list[dict[str, Any]], spare: list[int]) -> None:
+        self._views, self._spare = views, spare
+
+    def add(self, view: dict[str, Any]) -> int:
+        """The number of a new view."""
+        number = self._spare.pop() if self._spare else len(self._views)
+        self._views[number : number + 1] = [view]
+        return number
+
+
+def _put(root: dict[str, Any], chunk: BinaryChunk, spare: list[int], arrays: Iterable[NewAccessor]) -> None:
+    """Arrays whose keys are of one size together, for they are alike; those with the largest keys first."""
+    views, compression = _Views(root["bufferViews"], spare), compression_of(root)
+    for _, alike in groupby(sorted(arrays, key=lambda a: -a.row), key=lambda a: a.row):
+        plain = list(alike)
+        if compression:
+            plain = _put_compressed(chunk, views, compression, plain)
+        for accessor in plain:
+            _name(accessor, *_in_room(chunk, views, accessor))
+
+
+def _put_compressed(
+    chunk: BinaryChunk, views: _Views, compression: Compression, arrays: list[NewAccessor]
+) -> list[NewAccessor]:
+    """Arrays as one view, or as several where there is room for a part of them; back come those not worth it."""
+    strip = Strip([accessor.data or b"" for accessor in arrays], arrays[0].row)
+    stream = strip.packed()
+    if stream is None:
+        return arrays
+    some = min(int(0.95 * len(arrays) * chunk.roomiest / len(stream)), len(arrays) - 1)
+    if WORTH < chunk.roomiest < len(stream) and some:
+        parts = arrays[:some], arrays[some:]
+        return [left for part in parts for left in _put_compressed(chunk, views, compression, part)]
+    room, offset = chunk.put(stream, len(stream))
+    number = views.add(compression.view(strip, room.start + offset, len(stream)))
+    for accessor, start in zip(arrays, strip.offsets, strict=True):
+        _name(accessor, number, start)
+    return []
+
+
+def _in_room(chunk: BinaryChunk, views: _Views, accessor: NewAccessor) -> tuple[int, int]:
+    """Where an array is that is not compressed: the view and where in it."""
+    data = accessor.data or b""
+    room, offset = chunk.put(data, accessor.row)
+    if room.view is None:
+        room.view = {"buffer": 0, "byteOffset": room.start}
+        room.number = views.add(room.view)
+    room.view["byteLength"] = offset + len(data)
+    return room.number, offset
+
+
+def _name(accessor: NewAccessor, view: int, offset: int) -> None:
+    accessor.json.update({"bufferView": view, **({"byteOffset": offset} if offset else {})})

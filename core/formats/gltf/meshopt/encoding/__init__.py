@@ -1,0 +1,1 @@
+"""Attributes compressed as meshoptimizer does."""
