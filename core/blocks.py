@@ -32,13 +32,14 @@ def frames_per_block(vertex_count: int) -> int:
     return int(min(max(fitting // 8 * 8, 8), MOST_FRAMES))
 
 
-def threads_at_once(threads: int, vertex_count: int, columns: int = 0) -> int:
+def threads_at_once(threads: int, vertex_count: int, columns: int = 0, levels: int = 1) -> int:
     """As many of the threads as may hold a block each within `BLOCKS_BYTES`; where meshes are large, fewer.
 
-    A block is its float32 vertices and, of every column, a code of two bytes, a bin of one, and another's bin.
+    A block is its float32 vertices and, of every column, a code of two bytes and, for every edge between levels, a bit,
+    and another's bit.
     It is the threads that are fewer and not the frames of a block, on which bits of a result might depend.
     """
-    block = frames_per_block(vertex_count) * (12 * vertex_count + 4 * columns)
+    block = frames_per_block(vertex_count) * (12 * vertex_count + (2 + (levels - 1) // 4) * columns)
     return max(min(threads, BLOCKS_BYTES // max(block, 1)), 1)
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Float32, Int, UInt16
 
 from core import kernels
+from core.encoding.kernels import encode
 from core.kernels import SHIFT
 
 LOWEST = int(np.float32(2.0**-12).view(np.int32)) >> SHIFT
@@ -31,31 +32,32 @@ class Coding:
         """The coding for values whose largest so far is `largest`: 8 times more still fits."""
         return cls(2.0 ** -float(np.clip(np.floor(np.log2(largest)), *EXPONENTS)) if largest > 0 else 1.0)
 
-    def encode(
-        self, values: Float32[np.ndarray, "columns frames"], out: UInt16[np.ndarray, "columns frames"] | None = None
-    ) -> UInt16[np.ndarray, "columns frames"]:
-        """The codes of values ≥ 0, written into `out` where it is given; larger values never have smaller codes."""
-        codes = np.empty(values.shape, np.uint16) if out is None else out
-        kernels.encode(values.view(np.int32), self.lowest, codes)
-        return codes
+    def encode(self, values: Float32[np.ndarray, "*shape"]) -> UInt16[np.ndarray, "*shape"]:
+        """The codes of values ≥ 0; larger values never have smaller codes."""
+        return np.asarray(np.clip((values.view(np.int32) >> SHIFT) - self.lowest, 0, CODES - 1), np.uint16)
 
     def read(
         self,
         values: Float32[np.ndarray, "columns frames"],
         noise: Float32[np.ndarray, "columns"],
         floor: int,
-        out: UInt16[np.ndarray, "kept frames"],
         histogram: Int[np.ndarray, "codes"],
     ) -> tuple[float, int]:
-        """Encode values ≥ 0 and add their codes to the histogram, those below `floor` as code 0.
-
-        `out` takes the codes of every column, or has none.
+        """Add the codes of values ≥ 0 to the histogram, those below `floor` as code 0.
 
         Returns the largest value, and how many are above their column's noise.
         """
-        bits, limits = values.view(np.int32), noise.view(np.int32)
-        largest, above = kernels.read_tile(bits, values.shape[1], limits, self.lowest, np.int32(floor), out, histogram)
-        return float(np.int32(largest).view(np.float32)), int(above)
+        bits = values.view(np.int32)
+        tops, above = bits.max(axis=1, initial=0), np.zeros(values.shape[1], np.int32)
+        kernels.count_above(bits, noise.view(np.int32), above)
+        kernels.count_codes(bits, tops, values.shape[1], self.lowest, np.int32(floor), histogram)
+        return float(tops.max(initial=0).view(np.float32)), int(above.sum())
+
+    def turn(
+        self, values: Float32[np.ndarray, "columns frames"], codes: UInt16[np.ndarray, "frames _"], at: int
+    ) -> None:
+        """Write the codes of values ≥ 0 as columns `at` and on of `codes`."""
+        encode(values.view(np.int32), values.shape[1], self.lowest, codes, at)
 
     @property
     def lowest(self) -> np.int32:

@@ -10,60 +10,50 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float, Int, Int32, UInt8
+from jaxtyping import Float, Int, Int32, UInt64
 
 from core import kernels
+from core.exceedance.kernels import count_pairs
 
-
-@dataclass(frozen=True)
-class Piece:
-    """`width` frames of one block from `at` on, and as many of a later one from `later_at` on.
-
-    The blocks are kept whole, for the rows of a view would not be known to lie in one piece when compiled.
-    """
-
-    block: UInt8[np.ndarray, "columns _"]
-    at: int
-    later: UInt8[np.ndarray, "columns _"]
-    later_at: int
-    width: int
+Exceedances = UInt64[np.ndarray, "_ edges words"]
+"""Which triangles exceed which edge between bins in the frames of a block, a bit each."""
 
 
 @dataclass(frozen=True)
 class Pairing:
-    """The bins of some frames and of those l frames later, in the blocks at hand."""
+    """The exceedances of some frames, and those of the frames l later, in the pieces at hand; of so many columns."""
 
-    pieces: tuple[Piece, ...]
-    levels: int
+    pieces: tuple[tuple[np.ndarray, np.ndarray], ...]
+    columns: int
 
     def counts(self) -> Int32[np.ndarray, "pairs levels2"]:
         """C_n of every pair in turn, each row a matrix of levels x levels (Eq. 1, times the number of triangles)."""
-        counted = [np.zeros((piece.width, self.levels**2), np.int32) for piece in self.pieces]
-        for piece, counts in zip(self.pieces, counted, strict=True):
-            kernels.count_pairs(piece.block, piece.at, piece.later, piece.later_at, np.uint32(self.levels), counts)
+        counted = []
+        for frames, later in self.pieces:
+            counts = np.empty((len(frames), (frames.shape[1] + 1) ** 2), np.int32)
+            count_pairs(frames, later, self.columns, counts)
+            counted.append(counts)
         return np.concatenate(counted)
 
 
-def pairings(blocks: Iterable[UInt8[np.ndarray, "columns _"]], lag: int, levels: int) -> Iterator[Pairing]:
-    """Join every frame with the one `lag` frames later, as the blocks of bins come; holds the last `lag` frames."""
+def pairings(blocks: Iterable[Exceedances], lag: int, columns: int) -> Iterator[Pairing]:
+    """Join every frame with the one `lag` frames later, as the blocks come; holds the last `lag` frames."""
     held: deque[np.ndarray] = deque()
-    taken = 0  # frames of held[0] that have met their partner
-    behind = 0  # frames that were read and have not
+    behind = 0  # frames that were read and have not met their partner
     for block in blocks:
         held.append(block)
-        behind += block.shape[1]
+        behind += len(block)
         pieces = []
         while behind > lag:
-            first = held[0]
-            at = block.shape[1] - (behind - lag)
-            width = min(first.shape[1] - taken, behind - lag)
-            pieces.append(Piece(first, taken, block, at, width))
-            taken, behind = taken + width, behind - width
-            if taken == first.shape[1]:
-                held.popleft()
-                taken = 0
+            first = held.popleft()
+            at = len(block) - (behind - lag)
+            width = min(len(first), behind - lag)
+            pieces.append((first[:width], block[at : at + width]))
+            behind -= width
+            if width < len(first):
+                held.appendleft(first[width:])
         if pieces:
-            yield Pairing(tuple(pieces), levels)
+            yield Pairing(tuple(pieces), columns)
 
 
 def sliding_sums(counts: Iterable[Int[np.ndarray, "_ levels2"]], length: int) -> Iterator[Int[np.ndarray, "_ levels2"]]:

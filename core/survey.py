@@ -4,21 +4,21 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Int, UInt8
+from jaxtyping import Int, UInt64
 
-from core import kernels
 from core.animation import Animation
 from core.basis import basis
 from core.blocks import Block, blocks_of, frames_per_block, map_blocks, threads_at_once
 from core.body import Body
 from core.buffers import Buffers
-from core.codes import CODES, Coding, normaliser
+from core.codes import Coding, normaliser
 from core.descriptors.strain import ROUNDING
+from core.exceedance.kernels import WORD, exceed
 from core.glance import Glance
 from core.histograms import Histograms
 from core.parameters import Parameters
 from core.progress import Progress, ignore
-from core.surveyor import Page, Surveyor
+from core.surveyor import Page, Surveyor, row_of
 
 STILL_SHARE = 1e-6
 """A body does not strain where no more than this share of its strains, over all frames, rises above rounding."""
@@ -60,24 +60,24 @@ class Survey:
         share = self.share_above_noise if self.strains else 0.0
         return normaliser(rule, self.surveyor.coding, self.histogram, self.largest, share)
 
-    def bins(self, scale: float, levels: int, progress: Progress = ignore) -> Iterator[UInt8[np.ndarray, "columns _"]]:
-        """The bin of every strain over `scale`, φ1 = [0, 1/B], φi = ((i−1)/B, i/B], as 0 … B−1, in blocks of frames.
+    def exceedances(
+        self, scale: float, levels: int, progress: Progress = ignore
+    ) -> Iterator[UInt64[np.ndarray, "_ edges words"]]:
+        """Which strains exceed 1/B, …, (B − 1)/B of `scale`, in blocks of frames, a bit each.
 
-        From the codes where they were kept, else from the vertices, drawn once more.
+        So the bin of a strain, φ1 = [0, 1/B], φi = ((i−1)/B, i/B], is how many it exceeds. From the codes where they
+        were kept, else from the vertices, drawn once more.
         """
-        edges = self.surveyor.coding.edges(scale, levels)
-        edges = np.concatenate([edges, np.full(-len(edges) % 3, CODES - 1, np.uint16)])  # which no code is above
+        edges, buffers = self.surveyor.coding.edges(scale, levels), Buffers()
 
-        buffers = Buffers()
-
-        def digitized(block: Block) -> np.ndarray:
+        def exceeding(block: Block) -> np.ndarray:
             codes = self.surveyor.codes(block, buffers)
-            bins = buffers.empty(codes.shape, np.uint8)
-            kernels.digitize(codes, edges, bins)
-            return bins
+            words = buffers.empty((len(codes), len(edges), codes.shape[1] // WORD), np.uint64)
+            exceed(codes, edges, words)
+            return words
 
         return map_blocks(
-            digitized, self.blocks, self.threads, progress=progress, stage="energy", total=len(self.blocks)
+            exceeding, self.blocks, self.threads, progress=progress, stage="energy", total=len(self.blocks)
         )
 
 
@@ -101,14 +101,14 @@ def survey(
         body,
         glance.reach,
         coding,
-        int(coding.encode(np.full((1, 1), glance.common, np.float32))[0, 0]),
+        int(coding.encode(np.full(1, glance.common, np.float32))[0]),
         body.surface.noise(glance.reach),
         basis(animation, body, threads, progress),
-        np.empty(min(animation.frames * body.surface.columns, memory_bytes // 2), np.uint16),
+        np.empty(min(animation.frames * row_of(body.surface.columns), memory_bytes // 2), np.uint16),
         Histograms(),
     )
     blocks = blocks_of(animation.frames, frames_per_block(animation.vertex_count))
-    together = threads_at_once(threads, animation.vertex_count, body.surface.columns)
+    together = threads_at_once(threads, animation.vertex_count, body.surface.columns, parameters.bins)
     while True:
         pages = map_blocks(surveyor.measure, blocks, together, progress=progress, stage="strain", total=len(blocks))
         take = _bound(surveyor, blocks, together, pages)

@@ -85,9 +85,9 @@ _MODERATE_BITS = MODERATE.view(np.int32)
 
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
 def _moderate_log_strains(
-    rows: Floats, corners: Indices, shapes: Floats, scale: Floats, scratch: Floats, tile: Floats, largest: Indices
+    rows: Floats, corners: Indices, shapes: Floats, scale: Floats, scratch: Floats, tile: Floats, tops: Indices
 ) -> None:
-    """tile[t, f] = log strain without a logarithm, good to a part in a million up to `MODERATE`; its largest bits.
+    """tile[t, f] = log strain without a logarithm, good to a part in a million up to `MODERATE`; tops[t].
 
     With λ1 ≥ λ2 the squared stretches, ln²σ1 + ln²σ2 = (p² + q²) / 2 where p = atanh((λ1 λ2 − 1) / (λ1 λ2 + 1)) and
     q = atanh((λ1 − λ2) / (λ1 + λ2)). Both squares are rational in E, B and G: one division and one root a triangle.
@@ -125,7 +125,7 @@ def _moderate_log_strains(
             value = np.float32(np.sqrt(np.float32(0.5) * both))
             strain[f] = value
             top = max(top, np.int32(value.view(np.int32) & np.int32(0x7FFFFFFF)))  # NaN is the largest of all
-        largest[t] = top
+        tops[t] = top
 
 
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
@@ -157,20 +157,26 @@ def _squared_stretches(
 
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
 def strain_tile(
-    rows: Floats, corners: Indices, shapes: Floats, scale: Floats, measure: int, scratch: Floats, tile: Floats
+    rows: Floats,
+    corners: Indices,
+    shapes: Floats,
+    scale: Floats,
+    measure: int,
+    scratch: Floats,
+    tile: Floats,
+    tops: Indices,
 ) -> None:
     """tile[t, f]: strain of each triangle; `scratch`, three rows; `scale[f]` times the squared stretches.
 
-    `rows` (vertices, 3 · WIDTH) hold the frames of x, then of y, then of z.
+    `rows` (vertices, 3 · WIDTH) hold the frames of x, then of y, then of z; tops[t]: the bits of the largest strain.
 
     Which way a value is computed depends on the value alone, so that no bit depends on how frames fall into blocks.
     """
-    larger, other, most_moderate = scratch[:Y], scratch[Y:Z], _MODERATE_BITS
-    largest = np.full(corners.shape[0], np.int32(0x7FFFFFFF), np.int32)
+    larger, other = scratch[:Y], scratch[Y:Z]
     if measure == LOG:
-        _moderate_log_strains(rows, corners, shapes, scale, scratch, tile, largest)
+        _moderate_log_strains(rows, corners, shapes, scale, scratch, tile, tops)
     for t in range(corners.shape[0]):
-        if largest[t] <= most_moderate:
+        if measure == LOG and tops[t] <= _MODERATE_BITS:
             continue
         strain = tile[t]
         _squared_stretches(rows, corners[t], shapes[t], scale, larger, other)
@@ -187,6 +193,7 @@ def strain_tile(
             for f in range(WIDTH):
                 most, least = np.sqrt(larger[f]) - np.float32(1), np.sqrt(other[f]) - np.float32(1)
                 strain[f] = max(abs(most), abs(least))
+        tops[t] = largest_bits(strain.view(np.int32))
 
 
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")

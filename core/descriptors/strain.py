@@ -111,7 +111,7 @@ class TriangleStrain:
         scale = _to_width(self._scale(block))
         rows = self._buffers.empty((self._most_members, 3, WIDTH), np.float32)
         tile = self._buffers.empty((TILE, WIDTH), np.float32)
-        scratch = self._buffers.empty((3 * WIDTH,), np.float32)
+        scratch, tops = self._buffers.empty((3 * WIDTH,), np.float32), np.empty(TILE, np.int32)
         for number, part in enumerate(self.parts):
             out = tile[: len(part.corners)]
             pieces = []
@@ -123,7 +123,7 @@ class TriangleStrain:
                 if not _readable(own):
                     raise UnreadableError(UNREADABLE_SAYS)
                 lines, factors = own.reshape(-1, 3 * WIDTH), scale[start : start + WIDTH]
-                kernels.strain_tile(lines, part.corners, part.shapes, factors, self.measure, scratch, out)
+                kernels.strain_tile(lines, part.corners, part.shapes, factors, self.measure, scratch, out, tops)
                 if frames != WIDTH:
                     pieces.append(out[:, :width].copy())
             yield slice(number * TILE, number * TILE + len(out)), np.concatenate(pieces, axis=1) if pieces else out
@@ -134,7 +134,7 @@ class TriangleStrain:
         noise: Float32[np.ndarray, "columns"],
         coding: tuple[np.int32, np.int32],
         means: tuple[PatchMeans, Float32[np.ndarray, "patches frames"]],
-        codes: UInt16[np.ndarray, "kept frames"],
+        codes: UInt16[np.ndarray, "kept row"],
         histogram: Int[np.ndarray, "codes"],
     ) -> tuple[float, int]:
         """At most `WIDTH` frames of `tiles` at once: adds to means and counts, and writes codes where there are rows.

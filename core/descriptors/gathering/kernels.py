@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float32]
 Indices = NDArray[np.int32]
 
+_ZERO = ir.Constant(ir.IntType(64), 0)
 _FOUR = ir.VectorType(ir.FloatType(), 4)
 _INTERLEAVED_LOW, _INTERLEAVED_HIGH = (0, 4, 1, 5), (2, 6, 3, 7)
 _LOWER_HALVES, _UPPER_HALVES = (0, 1, 4, 5), (2, 3, 6, 7)
@@ -55,6 +56,36 @@ _turn_four: Any = intrinsic(_turn)
 
 Reads one float after the vertex, so v must not be the last of the mesh.
 """
+
+
+def _fetch(_: Any, vertices: Any, _frame: Any, _vertex: Any) -> Any:
+    """Says to numba, which asks with its own types, what `fetch_ahead` takes and which instruction it is."""
+
+    def generate(context: Any, builder: Any, signature: Any, given: Any) -> Any:
+        source = context.make_array(signature.args[0])(context, builder, given[0])
+        place = cgutils.get_item_pointer(context, builder, signature.args[0], source, (*given[1:], _ZERO))
+        flag, byte = ir.IntType(32), ir.IntType(8).as_pointer()
+        called = ir.FunctionType(ir.VoidType(), [byte, flag, flag, flag])
+        fetch = cgutils.get_or_insert_function(builder.module, called, "llvm.prefetch.p0")
+        builder.call(fetch, [builder.bitcast(place, byte), *(ir.Constant(flag, value) for value in (0, 2, 1))])
+        return context.get_dummy_value()
+
+    return types.void(vertices, types.int64, types.int64), generate
+
+
+_fetch_ahead: Any = intrinsic(_fetch)
+"""_fetch_ahead(vertices, f, v): asks the memory for the line of vertices[f, v], and does not wait for it."""
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def fetch(vertices: Floats, members: Indices, start: int, stop: int) -> None:
+    """Ask for the members' places in frames [start, stop), while something else is computed; every line about once.
+
+    In coherent order, neighbours in the list are neighbours in memory, five or more to a line.
+    """
+    for f in range(start, min(stop, vertices.shape[0])):
+        for i in range(0, members.size, 4):
+            _fetch_ahead(vertices, f, members[i])
 
 
 @njit(nogil=True, cache=True, error_model="numpy")

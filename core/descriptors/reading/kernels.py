@@ -8,11 +8,15 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from core.descriptors.gathering.kernels import gather
+from core.descriptors.gathering.kernels import fetch, gather
 from core.descriptors.kernels import FAST, REACH, WIDTH, Floats, Indices, add_weighted, largest_bits, strain_tile
-from core.kernels import Codes, Sums, read_tile
+from core.encoding.kernels import encode
+from core.kernels import Codes, Sums, count_above, count_codes
 
 UNREADABLE = -1
+
+TOGETHER = 64
+"""Triangles whose strain is read while it is in the nearest cache."""
 
 _REACH_BITS = int(REACH.view(np.int32))
 
@@ -39,14 +43,14 @@ def read_block(
     histogram: Sums,
     means: Floats,
 ) -> tuple[int, int]:
-    """Up to `WIDTH` frames: what `strain_tile`, `read_tile` and `add_weighted` do of every tile.
+    """Up to `WIDTH` frames: every tile gathered, strained, added to the means, counted and encoded.
 
     Tile i has the members from `member_ends[i]` to `member_ends[i + 1]`, and the triangles likewise by `ends`. `codes`
     has no rows where none are kept, `means` none where there are no patches. Returns the bits of the largest strain
     and how many strains are above noise, `UNREADABLE` where a corner is no number or beyond `REACH`.
     """
     frames = vertices.shape[0]
-    largest, above = 0, 0
+    largest, above, tops = 0, np.zeros(frames, np.int32), np.empty(TOGETHER, np.int32)
     for i in range(ends.size - 1):
         own = members[member_ends[i] : member_ends[i + 1]]
         start, end = ends[i], ends[i + 1]
@@ -57,11 +61,21 @@ def read_block(
                 gathered[v, axis, frames:] = gathered[v, axis, frames - 1]
         if largest_bits(gathered.reshape(-1).view(np.int32)) > _REACH_BITS:
             return largest, UNREADABLE
-        lines, strain = gathered.reshape((own.size, 3 * WIDTH)), tile[: end - start]
-        strain_tile(lines, corners[start:end], shapes[start:end], scale, measure, scratch, strain)
-        if means.shape[0] > 0:
-            add_weighted(strain, weights[start:end], groups[start:end], means)
-        bits, kept = strain.view(np.int32), codes[start:end]
-        most, more = read_tile(bits, frames, noise[start:end], lowest, floor, kept, histogram)
-        largest, above = max(largest, most), above + more
-    return largest, above
+        lines = gathered.reshape((own.size, 3 * WIDTH))
+        later = members[member_ends[i + 1] : member_ends[min(i + 2, ends.size - 1)]]
+        for first in range(start, end, TOGETHER):
+            last = min(first + TOGETHER, end)
+            soon = (first - start) * WIDTH // (end - start)
+            fetch(vertices, later, soon, (last - start) * WIDTH // (end - start))
+            strain = tile[: last - first]
+            strain_tile(lines, corners[first:last], shapes[first:last], scale, measure, scratch, strain, tops)
+            for t in range(last - first):
+                largest = max(largest, int(tops[t]))
+            if means.shape[0] > 0:
+                add_weighted(strain, weights[first:last], groups[first:last], means)
+            bits = strain.view(np.int32)
+            count_above(bits, noise[first:last], above)
+            count_codes(bits, tops, frames, lowest, floor, histogram)
+            if codes.shape[0] > 0:
+                encode(bits, frames, lowest, codes, first)
+    return largest, int(above.sum())

@@ -57,8 +57,11 @@ def test_plain_motions_are_found(name, least):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_they_are_found_at_120_frames_a_second(name):
-    """Frames are reduced or not, lengths are of seconds. Which frames stand for the others is drawn, and `spectral`, which
-    looks at single ones, hangs on that draw: one of ten finds them, on whatever processor."""
+    """Frames are reduced or not, lengths are of seconds.
+
+    Which frames stand for the others is drawn, and `spectral`, which looks at single ones, hangs on that draw: one of
+    ten finds them, on whatever processor.
+    """
     values, truth = performance((0, 1, 0), 4.0)
     slow = np.linspace(0, len(values) - 1, 4 * len(values) - 3)
     values = np.stack([np.interp(slow, np.arange(len(values)), column) for column in values.T], axis=1)
