@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import AsyncIterator, Iterator
-from contextlib import aclosing, asynccontextmanager, contextmanager, suppress
+from contextlib import asynccontextmanager, contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -89,12 +89,10 @@ class Backend:
         """The record once it is no longer live, or as it is after `seconds`."""
         if not seconds or not record.live:
             return record
+        ended: SegmentationRecord | None = None
         with self.patience(seconds):
-            async with aclosing(self.records.changes(record.id)) as changes:
-                async for now in changes:
-                    if now is None or not now.live:
-                        break
-        return await self.segmentation(record.id, record.owner)
+            ended = await self.records.ended(record.id)
+        return ended or await self.segmentation(record.id, record.owner)
 
     async def position(self, record: SegmentationRecord) -> int | None:
         """How many jobs come before it; None where it does not wait."""

@@ -1,17 +1,18 @@
 """The records as the web process reads them: without blocking, and waiting without asking again and again."""
 
-import asyncio
 from collections.abc import AsyncGenerator
 from contextlib import aclosing
 
 import redis.asyncio
 
 from worker import keys
+from worker.listening import Listener, Words
 from worker.records import names
 from worker.schema import AnimationRecord, ExportRecord, SegmentationRecord
 from worker.together import Together
 
 REREAD_SECONDS = 3.0  # a message may be missed where a connection breaks
+STILL_LIVE: Words = frozenset({b"queued", b"running"})
 
 
 class AsyncRecords:
@@ -20,10 +21,12 @@ class AsyncRecords:
     def __init__(self, url: str) -> None:
         self.redis: redis.asyncio.Redis = redis.asyncio.Redis.from_url(url, health_check_interval=30)
         self._together = Together(self.redis)
+        self._listener = Listener(self.redis)
 
     async def close(self) -> None:
         """Give the connections back."""
         await self._together.close()
+        await self._listener.close()
         await self.redis.aclose()
 
     async def animation(self, identifier: str) -> AnimationRecord | None:
@@ -67,30 +70,26 @@ class AsyncRecords:
         """A file made of a result, or None where none was asked for."""
         return ExportRecord.read(await self.redis.get(keys.export_key(segmentation, form)))
 
-    async def changes(self, identifier: str) -> AsyncGenerator[SegmentationRecord | None, None]:
+    async def changes(self, identifier: str, deaf: Words = frozenset()) -> AsyncGenerator[SegmentationRecord | None]:
         """The record now, and again after every change and every 3 s; None once it is deleted.
 
-        Subscribes before it reads, so that no change is missed. Ends never: leave it through
-        `async with aclosing(records.changes(id)) as changes`, which gives its connection back.
+        Listens before it reads, so that no change is missed. Words that it is `deaf` to are changes that do not
+        matter. Ends never: leave it through `async with aclosing(records.changes(id)) as changes`.
         """
-        async with self.redis.pubsub() as listener:
-            await listener.subscribe(keys.channel(identifier))
-            await listener.get_message(timeout=REREAD_SECONDS)  # the server's word that it listens
+        channel = keys.channel(identifier)
+        async with self._listener.hearing(channel, deaf) as ear:
             while True:
                 yield await self.segmentation(identifier)
-                await listener.get_message(ignore_subscribe_messages=True, timeout=REREAD_SECONDS)
+                await ear.woken(REREAD_SECONDS)
+                await self._listener.attend(channel)
 
-    async def wait(self, identifier: str, seconds: float) -> SegmentationRecord | None:
-        """The record as soon as it is no longer live, or as it is after `seconds`."""
-        try:
-            async with asyncio.timeout(seconds):
-                async with aclosing(self.changes(identifier)) as changes:
-                    async for record in changes:
-                        if record is None or not record.live:
-                            return record
-        except TimeoutError:
-            pass
-        return await self.segmentation(identifier)
+    async def ended(self, identifier: str) -> SegmentationRecord | None:
+        """The record as soon as it is no longer live; None once it is deleted. Waits for ever."""
+        async with aclosing(self.changes(identifier, STILL_LIVE)) as changes:
+            async for record in changes:
+                if record is None or not record.live:
+                    return record
+        raise AssertionError("changes never end")
 
 
 def _bytes(stored: bytes | str | None) -> bytes | None:

@@ -13,10 +13,10 @@ from worker import logs, tallies
 from worker.blobs import BlobMissing
 from worker.jobs import Jobs, TimeLimit, worker_problem
 from worker.schema import SegmentationRecord
+from worker.telling import Teller
 
 log = logging.getLogger(__name__)
 
-TELL_SECONDS = 0.2
 INFRASTRUCTURE = (OSError, RedisError, StoreError)
 
 OUT_OF_MEMORY = worker_problem(
@@ -54,24 +54,29 @@ class Attempt:
         self.record = record
         self.stage_seconds: dict[str, float] = {}
         self._stage_began = time.monotonic()
-        self._told = 0.0
         self._stage = ""
         self._fraction = 0.0
+        self._teller = Teller(self._write)
 
     def progress(self, stage: str, fraction: float) -> None:
-        """Write where it is, at most five times a second, and every new stage; raises `Superseded`.
+        """Have it told where it is; raises `Superseded` where an earlier word found that nobody wants it any more.
 
         A stage that needs a second pass stays where it was until that is further: progress never goes back.
         """
-        now = time.monotonic()
-        if stage == self._stage and now - self._told < TELL_SECONDS:
-            return
         if stage != self._stage:
             self.end_stage()
-        fraction = min(max(fraction, 0.0, self._fraction if stage == self._stage else 0.0), 1.0)
-        self._told, self._stage, self._fraction = now, stage, fraction
-        if self.records.of_attempt(self.record.token, self.record.id, stage=stage, fraction=fraction) is None:
+            self._stage, self._fraction = stage, 0.0
+        self._fraction = min(max(fraction, self._fraction), 1.0)
+        if not self._teller.say(stage, self._fraction):
             raise Superseded
+
+    def end(self) -> None:
+        """Nothing more is told, and the last stage is over."""
+        self._teller.stop()
+        self.end_stage()
+
+    def _write(self, stage: str, fraction: float) -> bool:
+        return self.records.of_attempt(self.record.token, self.record.id, stage=stage, fraction=fraction) is not None
 
     def end_stage(self) -> None:
         """Count how long the stage took that is over now."""
@@ -102,8 +107,10 @@ def carry_out(jobs: Jobs, identifier: str, token: str, work: Callable[[Attempt],
         return
     attempt = Attempt(jobs, record)
     with logs.about(request=record.request, segmentation=identifier):
-        _carried_out(attempt, work)
-        attempt.end_stage()
+        try:
+            _carried_out(attempt, work)
+        finally:
+            attempt.end()
         tallies.count_stages(jobs.redis, attempt.stage_seconds)
         log.info("attempt %d ended", record.attempt, extra={"told": _milliseconds(attempt.stage_seconds)})
 

@@ -23,7 +23,7 @@ def test_waiting_is_woken_by_the_change(idle, take):
     record = idle.submit(idle.upload(take))
 
     async def use(records):
-        waiting = asyncio.create_task(records.wait(record.id, 10))
+        waiting = asyncio.create_task(records.ended(record.id))
         await asyncio.sleep(0.2)
         await asyncio.to_thread(idle.jobs.cancel, record.id)
         began = time.monotonic()
@@ -34,10 +34,62 @@ def test_waiting_is_woken_by_the_change(idle, take):
     assert seconds < 1
 
 
-def test_waiting_ends_when_asked(idle, take):
-    """Nothing changes: after the time given, the record as it is."""
+def test_waiting_sleeps_through_progress(idle, take):
+    """What runs tells five times a second how far it is; who waits for its end reads twice: at first, and then."""
     record = idle.submit(idle.upload(take))
-    assert reading(idle, lambda records: records.wait(record.id, 0.2)) == record
+
+    async def use(records):
+        waiting = asyncio.create_task(records.ended(record.id))
+        await asyncio.sleep(0.2)
+        before = (await records.redis.info("commandstats"))["cmdstat_mget"]["calls"]
+        idle.records.begin(record.id, record.token)
+        for number in range(9):
+            idle.records.of_attempt(record.token, record.id, stage="strain", fraction=number / 10)
+        idle.records.fail(record.id, record.token, {"kind": "input", "code": "no-motion", "detail": ""})
+        told = await waiting
+        return told.status, (await records.redis.info("commandstats"))["cmdstat_mget"]["calls"] - before
+
+    assert reading(idle, use) == ("failed", 1)
+
+
+def test_all_who_wait_listen_on_one_connection(idle, take):
+    """However many there are; who leaves leaves the channel too."""
+    waited = [idle.submit(idle.upload(take)) for _ in range(5)]
+
+    async def use(records):
+        waiting = [asyncio.create_task(records.ended(record.id)) for record in waited * 4]
+        await asyncio.sleep(0.3)
+        heard = await records.redis.pubsub_channels("caesura:changed:?*")
+        listening = [one for one in await records.redis.client_list() if int(one["sub"])]
+        for record in waited:
+            await asyncio.to_thread(idle.jobs.cancel, record.id)
+        told = await asyncio.gather(*waiting)
+        late = asyncio.create_task(records.ended("nobody's"))
+        await late
+        await asyncio.sleep(0.2)
+        left = await records.redis.pubsub_channels("caesura:changed:?*")
+        return len(heard), len(listening), {record.status for record in told}, len(left)
+
+    heard, listening, told, left = reading(idle, use)
+    assert (heard, listening, told) == (5, 1, {"cancelled"})
+    assert left <= 1
+
+
+def test_waiting_outlives_a_broken_connection(idle, take):
+    """Every connection is cut, also the one that listens: the change after it is heard all the same."""
+    record = idle.submit(idle.upload(take))
+
+    async def use(records):
+        waiting = asyncio.create_task(records.ended(record.id))
+        await asyncio.sleep(0.2)
+        for one in await records.redis.client_list():
+            if int(one["sub"]):
+                await records.redis.client_kill_filter(_id=one["id"])
+        await asyncio.sleep(0.2)
+        await asyncio.to_thread(idle.jobs.cancel, record.id)
+        return await asyncio.wait_for(waiting, 10)
+
+    assert reading(idle, use).status == "cancelled"
 
 
 def test_changes_end_with_the_record(idle, take):

@@ -1,8 +1,11 @@
 """However the work ends, the record says so, and only what another attempt may mend is tried again."""
 
+import time
+
 import pytest
 from obstore.exceptions import GenericError
 from redis.exceptions import ConnectionError as RedisAway
+from redis.exceptions import OutOfMemoryError
 
 from core.errors import InvalidModel, from_problem
 from worker.attempt import carry_out
@@ -62,7 +65,7 @@ def test_a_bug_is_told_without_its_details(idle, queued):
     assert "secret" not in failed.model_dump_json()
 
 
-def test_a_cancelled_attempt_stops_at_its_next_word(idle, queued):
+def test_a_cancelled_attempt_stops_at_one_of_its_next_words(idle, queued):
     """Progress that nobody wants raises, and the job ends in peace."""
     stopped = []
 
@@ -70,7 +73,9 @@ def test_a_cancelled_attempt_stops_at_its_next_word(idle, queued):
         attempt.progress("strain", 0.1)
         idle.jobs.cancel(queued.id)
         try:
-            attempt.progress("energy", 0.1)
+            for step in range(100):
+                attempt.progress("energy", step / 100)
+                time.sleep(0.02)
         finally:
             stopped.append(True)
         raise AssertionError("not reached")
@@ -81,15 +86,49 @@ def test_a_cancelled_attempt_stops_at_its_next_word(idle, queued):
 
 
 def test_progress_never_goes_back_within_a_stage(idle, queued):
-    """A second pass over the frames stays where the first one ended."""
+    """A second pass over the frames stays where the first one ended; another stage begins anew."""
 
     def work(attempt):
         attempt.progress("figure", 0.9)
-        attempt._told = 0.0
+        idle.until(queued.id, lambda record: record.fraction == 0.9)
         attempt.progress("figure", 0.1)
-        assert attempt.records.segmentation(queued.id).fraction == 0.9
         attempt.progress("cut", 0.1)
-        assert attempt.records.segmentation(queued.id).fraction == 0.1
+        idle.until(queued.id, lambda record: record.stage == "cut")
+        assert idle.records.segmentation(queued.id).fraction == 0.1
+        attempt.progress("cut", 0.0)
+        attempt.progress("cut", 0.2)
+        idle.until(queued.id, lambda record: record.fraction == 0.2)
 
     carry_out(idle.jobs, queued.id, queued.token, work)
     assert idle.records.segmentation(queued.id).status == "running"
+
+
+def test_the_newest_word_is_told_and_work_does_not_wait_for_it(idle, queued):
+    """A thousand words in no time are few writes; the last of them is read although no other follows."""
+
+    def work(attempt):
+        before = idle.redis.info("commandstats")["cmdstat_exec"]["calls"]
+        for step in range(1000):
+            attempt.progress("strain", step / 1000)
+        attempt.progress("energy", 0.5)
+        idle.until(queued.id, lambda record: (record.stage, record.fraction) == ("energy", 0.5))
+        assert idle.redis.info("commandstats")["cmdstat_exec"]["calls"] - before < 10
+
+    carry_out(idle.jobs, queued.id, queued.token, work)
+
+
+def test_a_word_that_cannot_be_told_ends_the_attempt_as_a_fault_of_the_machine(idle, queued):
+    """Redis does not take it: the work hears of it at its next word, and is tried again."""
+
+    def work(attempt):
+        idle.redis.config_set("maxmemory", 1)
+        try:
+            for step in range(100):
+                attempt.progress("strain", step / 100)
+                time.sleep(0.02)
+        finally:
+            idle.redis.config_set("maxmemory", 0)
+
+    with pytest.raises(OutOfMemoryError):
+        carry_out(idle.jobs, queued.id, queued.token, work)
+    assert idle.records.segmentation(queued.id).attempt == 2
