@@ -20,6 +20,9 @@ TYPE = "interval"
 Annotation = tuple[float, float, str]
 """From second to second, and what is said of it."""
 
+Interval = tuple[int, int, str]
+"""The same in whole milliseconds."""
+
 
 def segments_eaf(document: SegmentationDocument) -> str:
     """Times are those of the file's own clock, so a recording that runs by it can be linked in ELAN as it is."""
@@ -37,7 +40,7 @@ def segments_eaf(document: SegmentationDocument) -> str:
     return _text({name: list(_in_milliseconds(tier)) for name, tier in tiers.items() if tier})
 
 
-def _in_milliseconds(annotations: Iterable[Annotation]) -> Iterator[tuple[int, int, str]]:
+def _in_milliseconds(annotations: Iterable[Annotation]) -> Iterator[Interval]:
     """Whole, from 0 on, each at least one long, none before the one before has ended: ELAN takes no others."""
     free = 0
     for start, end, value in annotations:
@@ -46,28 +49,31 @@ def _in_milliseconds(annotations: Iterable[Annotation]) -> Iterator[tuple[int, i
         yield begin, free, FORBIDDEN.sub("", value)
 
 
-def _text(tiers: dict[str, list[tuple[int, int, str]]]) -> str:
+def _text(tiers: dict[str, list[Interval]]) -> str:
     about = {"AUTHOR": "Caesura", "DATE": DATE, "FORMAT": "3.0", "VERSION": "3.0"}
     root = Element("ANNOTATION_DOCUMENT", {**about, "xmlns:xsi": INSTANCE, "xsi:noNamespaceSchemaLocation": SCHEMA})
     header = SubElement(root, "HEADER", MEDIA_FILE="", TIME_UNITS="milliseconds")
-    count = sum(map(len, tiers.values()))
-    SubElement(header, "PROPERTY", NAME="lastUsedAnnotationId").text = str(count)
-    times = sorted({time for tier in tiers.values() for start, end, _ in tier for time in (start, end)})
-    slots = {time: f"ts{number}" for number, time in enumerate(times, 1)}
-    order = SubElement(root, "TIME_ORDER")
-    for time, slot in slots.items():
-        SubElement(order, "TIME_SLOT", TIME_SLOT_ID=slot, TIME_VALUE=str(time))
-    numbers = itertools.count(1)
-    for name, annotations in tiers.items():
-        tier = SubElement(root, "TIER", LINGUISTIC_TYPE_REF=TYPE, TIER_ID=name)
-        for start, end, value in annotations:
-            _annotate(tier, f"a{next(numbers)}", slots[start], slots[end], value)
+    intervals = list(itertools.chain.from_iterable(tiers.values()))
+    SubElement(header, "PROPERTY", NAME="lastUsedAnnotationId").text = str(len(intervals))
+    annotations = zip(_slots(SubElement(root, "TIME_ORDER"), intervals), itertools.count(1), strict=False)
+    for name, tier in tiers.items():
+        element = SubElement(root, "TIER", LINGUISTIC_TYPE_REF=TYPE, TIER_ID=name)
+        for (*_, value), ((start, end), number) in zip(tier, annotations, strict=False):
+            at = {"ANNOTATION_ID": f"a{number}", "TIME_SLOT_REF1": start, "TIME_SLOT_REF2": end}
+            annotation = SubElement(SubElement(element, "ANNOTATION"), "ALIGNABLE_ANNOTATION", at)
+            SubElement(annotation, "ANNOTATION_VALUE").text = value
     SubElement(root, "LINGUISTIC_TYPE", GRAPHIC_REFERENCES="false", LINGUISTIC_TYPE_ID=TYPE, TIME_ALIGNABLE="true")
     indent(root)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
 
 
-def _annotate(tier: Element, number: str, start: str, end: str, value: str) -> None:
-    at = {"ANNOTATION_ID": number, "TIME_SLOT_REF1": start, "TIME_SLOT_REF2": end}
-    interval = SubElement(SubElement(tier, "ANNOTATION"), "ALIGNABLE_ANNOTATION", at)
-    SubElement(interval, "ANNOTATION_VALUE").text = value
+def _slots(order: Element, intervals: list[Interval]) -> Iterator[tuple[str, str]]:
+    """Two slots for each interval, in the order of time. None is shared: in ELAN, what shares a slot moves with it."""
+    sides = [
+        (side, begins, n) for n, (start, end, _) in enumerate(intervals) for side, begins in ((start, 1), (end, 0))
+    ]
+    names = {}
+    for place, (time, begins, number) in enumerate(sorted(sides), 1):
+        names[number, begins] = f"ts{place}"
+        SubElement(order, "TIME_SLOT", TIME_SLOT_ID=f"ts{place}", TIME_VALUE=str(time))
+    return ((names[number, 1], names[number, 0]) for number in range(len(intervals)))
