@@ -49,8 +49,8 @@ class Backend:
 
     async def animation(self, identifier: str, owner: str) -> AnimationRecord:
         """The animation, or the refusal to say whether it exists."""
-        record = await self.records.animation(identifier)
-        if record is None or record.owner != owner:
+        record = await self.records.owned_animation(identifier, owner)
+        if record is None:
             raise Refusal("not-found", f"There is no animation {identifier}. It may have been deleted.")
         return record
 
@@ -60,14 +60,14 @@ class Backend:
 
     async def told(self, identifier: str, owner: str) -> Told:
         """The segmentation and its status document, or the refusal to say whether it exists."""
-        known = await self.known(identifier)
-        if known is None or known.record.owner != owner:
+        known = await self.known(identifier, owner)
+        if known is None:
             raise Refusal("not-found", f"There is no segmentation {identifier}. It may have been deleted.")
         return known
 
-    async def known(self, identifier: str) -> Told | None:
-        """The same, whoever's it is; None where there is none."""
-        stored = await self.records.stored_segmentation(identifier)
+    async def known(self, identifier: str, owner: str) -> Told | None:
+        """The same; None where there is none, or it is another's: for both the same is looked up."""
+        stored = await self.records.owned_segmentation(identifier, owner)
         return None if stored is None else told(stored)
 
     @contextmanager

@@ -56,10 +56,10 @@ async def _text(scope: Scope) -> str | None:
         return None
     backend: Backend = scope["app"].state.backend
     visitor = scope["state"].get("visitor")
+    if visitor is None:
+        return None
     try:
-        known = await backend.known(scope["path"][len(PREFIX) :])
+        known = await backend.known(scope["path"][len(PREFIX) :], visitor.owner)
     except RedisError:
         return None  # the route says what is wrong
-    if known is None or visitor is None or known.record.owner != visitor.owner or known.record.status == "queued":
-        return None
-    return known.text
+    return None if known is None or known.record.status == "queued" else known.text

@@ -7,6 +7,7 @@ import redis.asyncio
 
 from worker import keys
 from worker.listening import Listener, Words
+from worker.owned import OwnedReads
 from worker.records import names
 from worker.schema import AnimationRecord, ExportRecord, SegmentationRecord
 from worker.together import Together
@@ -20,18 +21,20 @@ class AsyncRecords:
 
     def __init__(self, url: str) -> None:
         self.redis: redis.asyncio.Redis = redis.asyncio.Redis.from_url(url, health_check_interval=30)
-        self._together = Together(self.redis)
+        self._together = Together(self.redis.mget)
+        self._owned = Together(OwnedReads(self.redis))
         self._listener = Listener(self.redis)
 
     async def close(self) -> None:
         """Give the connections back."""
         await self._together.close()
+        await self._owned.close()
         await self._listener.close()
         await self.redis.aclose()
 
-    async def animation(self, identifier: str) -> AnimationRecord | None:
-        """The animation, or None."""
-        return AnimationRecord.read(await self.redis.get(keys.animation_key(identifier)))
+    async def owned_animation(self, identifier: str, owner: str) -> AnimationRecord | None:
+        """The owner's animation, or None."""
+        return AnimationRecord.read(await self._owned.get((keys.animation_key(identifier), owner)))
 
     async def animations(self, owner: str, limit: int, before: float | None = None) -> list[AnimationRecord]:
         """An owner's animations, newest first; `before` is the `created` of the last one seen."""
@@ -42,11 +45,11 @@ class AsyncRecords:
 
     async def segmentation(self, identifier: str) -> SegmentationRecord | None:
         """The segmentation, or None."""
-        return SegmentationRecord.read(await self.stored_segmentation(identifier))
+        return SegmentationRecord.read(await self._together.get(keys.segmentation_key(identifier)))
 
-    async def stored_segmentation(self, identifier: str) -> bytes | None:
-        """The segmentation's record as it is stored, or None."""
-        return await self._together.get(keys.segmentation_key(identifier))
+    async def owned_segmentation(self, identifier: str, owner: str) -> bytes | None:
+        """The record of the owner's segmentation as it is stored, or None."""
+        return await self._owned.get((keys.segmentation_key(identifier), owner))
 
     async def segmentations(self, animation: str) -> list[SegmentationRecord]:
         """All segmentations of an animation, newest first."""

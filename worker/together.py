@@ -1,23 +1,28 @@
 """Reads of Redis that come at the same time go there together: most of what a small read costs is the way."""
 
 import asyncio
+from collections.abc import Awaitable, Callable, Hashable
 from contextlib import suppress
+from typing import Any, Generic, TypeVar
 
-import redis.asyncio
+Key = TypeVar("Key", bound=Hashable)
+
+Read = Callable[[list[Key]], Awaitable[Any]]
+"""Reads many, such as MGET: a list of bytes, None where there is nothing. redis-py types it loosely."""
 
 
-class Together:
-    """GET, for many at once. While one MGET is under way, what is asked for meanwhile waits to be the next one.
+class Together(Generic[Key]):
+    """One read for many at once. While one is under way, what is asked for meanwhile waits to be the next one.
 
     Nobody waits for longer than two ways, and nobody is answered with what was read before the question.
     """
 
-    def __init__(self, client: redis.asyncio.Redis) -> None:
-        self._redis = client
-        self._asked: dict[str, asyncio.Future[bytes | None]] = {}
+    def __init__(self, read: Read[Key]) -> None:
+        self._read = read
+        self._asked: dict[Key, asyncio.Future[bytes | None]] = {}
         self._way: asyncio.Task[None] | None = None
 
-    async def get(self, key: str) -> bytes | None:
+    async def get(self, key: Key) -> bytes | None:
         """The value, or None; raises what redis-py raises."""
         answer = self._asked.get(key)
         if answer is None:
@@ -34,12 +39,12 @@ class Together:
                 await self._way
 
     async def _fetch(self) -> None:
-        """One MGET after the other, until nobody asks."""
+        """One read after the other, until nobody asks."""
         try:
             while self._asked:
                 asked, self._asked = self._asked, {}
                 try:
-                    values = await self._redis.mget(list(asked))
+                    values = await self._read(list(asked))
                 except Exception as fault:  # noqa: BLE001  it is theirs who asked
                     for answer in asked.values():
                         _settle(answer, fault)

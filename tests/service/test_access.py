@@ -19,6 +19,9 @@ from tests.service.conftest import serve, with_its_own_redis
 OPEN = {"GET /healthz", "GET /readyz", "POST /v1/session", "DELETE /v1/session"}
 """What needs no key. Whatever else there is, or will be, does."""
 
+BESIDE = {"INFO", "PING", "LLEN", "HELLO", "CLIENT"}
+"""What is asked once a second or less, or of a new connection, whoever comes."""
+
 HERE = {"suffix": "json", "number": "0", "n": "0", "revision": "0"}
 ELSEWHERE = "https://elsewhere.example"
 PATHS = create_app(ServiceSettings(data_dir=Path("never-made"))).openapi()["paths"]
@@ -61,7 +64,8 @@ class Guarded:
         animation, segmentation = ("a" * 26, "b" * 26) if unknown else (self.animation, self.segmentation)
         own = animation if path.startswith("/v1/animations") else segmentation
         path = path.replace("{identifier}", own)
-        path = re.sub(r"\{(\w+)\}", lambda match: HERE[match[1]], path)
+        here = HERE | ({"suffix": "svg"} if "/plot." in path else {})
+        path = re.sub(r"\{(\w+)\}", lambda match: here[match[1]], path)
         query = {"animation": animation} if call == "GET /v1/segmentations" else {}
         headers = {"Authorization": f"Bearer {key}"} if key else {}
         headers |= more.pop("headers", {})
@@ -75,6 +79,16 @@ class Guarded:
         answer = self.http.request(method, self.url + path, **request)
         self.http.cookies.clear()
         return answer
+
+    def looked_up(self, call, key, **more):
+        """The answer, and what Redis was asked for it: names of commands, those of scripts too."""
+        with self.redis.monitor() as monitor:
+            answer = self.ask(call, key, **more)
+            self.redis.echo("over")
+            asked = []
+            while (told := monitor.next_command())["command"] != "ECHO over":
+                asked.append((told["client_type"], told["command"].partition(" ")[0]))
+        return answer, [one for one in asked if one[1] not in BESIDE]
 
     def plain(self, answer):
         """What an answer says, but for the id that was asked for and the hour."""
@@ -125,6 +139,25 @@ def test_another_owners_things_are_as_if_they_were_not_there(owned, call):
     assert owned.plain(theirs) == owned.plain(owned.ask(call, owned.theirs, unknown=True))
     assert 400 <= theirs.status_code < 500
     assert owned.segmentation in owned.ask("GET /v1/segmentations/{identifier}", owned.mine).text
+
+
+@pytest.mark.parametrize("call", [call for call in CALLS if "{identifier}" in call or call == "GET /v1/segmentations"])
+def test_another_owners_things_are_not_even_read(owned, call):
+    """Redis does the same for them as for an id that nobody has, so that neither words nor time tell them apart."""
+    owned.ask(call, owned.theirs)
+    theirs, for_theirs = owned.looked_up(call, owned.theirs)
+    nobodys, for_nobodys = owned.looked_up(call, owned.theirs, unknown=True)
+    assert for_theirs == for_nobodys
+    assert ("lua", "GETRANGE") in for_theirs
+    assert ("lua", "GET") not in for_theirs
+    assert theirs.status_code == nobodys.status_code
+
+
+def test_a_record_is_read_for_its_owner(owned):
+    """Which the look-ups of one's own show."""
+    answer, asked = owned.looked_up("GET /v1/segmentations/{identifier}", owned.mine)
+    assert answer.status_code == 200
+    assert ("lua", "GET") in asked
 
 
 def test_each_owner_has_a_list_and_ids_of_its_own(owned, take):

@@ -158,3 +158,10 @@ def test_text_is_compressed_for_who_takes_it(service, address):
     answer = service.http.get(f"{address}/result", headers={"Accept-Encoding": "gzip"})
     assert answer.headers["Content-Encoding"] == "gzip"
     assert json.loads(answer.text)["frames"] == 240
+
+
+@pytest.mark.parametrize("trick", [":document", ":energy", ":labels", "%3Adocument", "%00", "%0a", "*", "?x=1%00"])
+def test_an_address_that_is_nearly_an_id_is_none(service, address, trick):
+    """What Redis holds under names that begin with the id is no segmentation."""
+    answer = service.http.get(address + trick)
+    assert answer.status_code == (422 if "?" in trick else 404), answer.text

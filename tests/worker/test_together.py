@@ -12,7 +12,7 @@ from worker.together import Together
 def reading(url, use):
     async def main():
         client = redis.asyncio.Redis.from_url(url)
-        together = Together(client)
+        together = Together(client.mget)
         try:
             return await use(client, together)
         finally:
