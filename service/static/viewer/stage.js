@@ -1,8 +1,8 @@
-// The 3D view: camera, light, floor and one figure, at one moment or at two side by side. Draws only when something changed.
+// The 3D view: eye, light, floor and one figure, at one moment or at two side by side. Draws only when something changed.
 
-import { PerspectiveCamera, Scene, Vector3 } from 'three';
-import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { Scene, Vector3 } from 'three';
 import { onResize, onTheme, styled } from './dom.js';
+import { Eye } from './eye.js';
 import { askGltf, gltfFigure } from './figure_gltf.js';
 import { askVertices, verticesFigure } from './figure_vertices.js';
 import { Floor } from './floor.js';
@@ -11,25 +11,24 @@ import { rendererOn } from './renderer.js';
 import { Strain } from './strain.js';
 
 export class Stage {
-  #renderer; #scene = new Scene(); #camera = new PerspectiveCamera(32, 1, 0.01, 1000); #orbit; #floor = new Floor();
-  #light = new Light(); #asked = false;
-  #middle = new Vector3(); #last = new Vector3(); #step = new Vector3(); #moments = []; #size = { width: 1, height: 1 };
+  #renderer; #scene = new Scene(); #eye; #floor = new Floor(); #light = new Light(); #asked = false;
+  #middle = new Vector3(); #moments = []; #size = { width: 1, height: 1 };
 
   constructor(canvas) {
     this.canvas = canvas;
     this.figure = null;
     this.strain = new Strain();
-    this.following = true;
     this.#renderer = rendererOn(canvas);
-    this.#scene.add(this.#light.object, this.#camera, this.#floor.object);
-    this.#orbit = new OrbitControls(this.#camera, canvas);
-    this.#orbit.enableDamping = false;
-    this.#orbit.addEventListener('change', () => this.draw());
+    this.#eye = new Eye(canvas, () => this.draw());
+    this.#scene.add(this.#light.object, this.#eye.camera, this.#floor.object);
     onResize(canvas.parentElement, () => this.#fit());
     onTheme(() => this.#theme());
     this.#theme();
     this.#fit();
   }
+
+  /** Whether the camera goes along with the body. */
+  set following(on) { this.#eye.following = on; }
 
   /** Begin to load what the service's viewer document names: before there is a stage, which takes long to make. */
   static ask(viewer, onProgress = () => {}) {
@@ -76,26 +75,15 @@ export class Stage {
     return Promise.all(missing.flatMap(([frame]) => [this.figure.fetch(frame), this.strain.fetch(frame)]));
   }
 
-  /** Stand back until the whole figure is seen, a little from the side and above. */
+  /** Stand back until the whole figure is seen. */
   reframe() {
     if (!this.figure) return;
     const box = this.figure.box();
     const size = box.getSize(new Vector3());
-    const centre = box.getCenter(new Vector3());
     const radius = size.length() / 2 || 1;
-    const aspect = Math.min(1, this.#size.width / this.#size.height);
-    const distance = (radius * 1.05) / Math.sin((this.#camera.fov * Math.PI) / 360) / aspect;
-    this.#camera.position.copy(centre).addScaledVector(new Vector3(0.62, 0.26, 0.74).normalize(), distance);
-    this.#camera.near = distance / 200;
-    this.#camera.far = distance * 60;
-    this.#camera.updateProjectionMatrix();
-    this.#orbit.target.copy(centre);
-    this.#orbit.minDistance = radius * 0.3;
-    this.#orbit.maxDistance = distance * 12;
     this.#floor.fit(Math.max(size.y, radius * 0.8), Math.max(size.x, size.z), box.min.y - radius * 0.002);
-    this.figure.centre(this.#last);
-    this.#middle.copy(this.#last);
-    this.#orbit.update();
+    this.figure.centre(this.#middle);
+    this.#eye.standBack(box.getCenter(new Vector3()), radius, this.#size, this.#middle);
     this.draw();
   }
 
@@ -116,16 +104,13 @@ export class Stage {
   #render() {
     const { width, height } = this.#size;
     const share = Math.max(1, this.#moments.length);
-    this.#camera.aspect = width / share / height;
-    // Half a stage is narrower, so what is on it is drawn smaller: as much of the figure is seen as on the whole.
-    this.#camera.zoom = Math.min(1, this.#camera.aspect) / Math.min(1, width / height);
-    this.#camera.updateProjectionMatrix();
+    this.#eye.look(this.#size, share);
     this.#renderer.setScissorTest(share > 1);
     for (let place = 0; place < share; place++) {
       this.#act(this.#moments[place], place === 0);
       this.#renderer.setViewport((place * width) / share, 0, width / share, height);
       this.#renderer.setScissor((place * width) / share, 0, width / share, height);
-      this.#renderer.render(this.#scene, this.#camera);
+      this.#renderer.render(this.#scene, this.#eye.camera);
     }
   }
 
@@ -136,29 +121,20 @@ export class Stage {
       this.strain.look(moment.look);
       this.strain.show(Math.floor(moment.position));
       this.figure.centre(this.#middle);
-      if (first) this.#follow();
+      if (first) this.#eye.follow(this.#middle);
     }
-    const { target } = this.#orbit;
+    const { camera, target } = this.#eye;
     this.#floor.follow(target, this.#middle);
-    this.#light.follow(this.#camera, target);
+    this.#light.follow(camera, target);
     this.#paint();
   }
 
   /** Work out here what a machine without a graphics card had better not be asked for. */
   #paint() {
     if (!this.figure?.painted.length) return;
-    this.#camera.updateMatrixWorld();
+    this.#eye.camera.updateMatrixWorld();
     const light = this.#light.parts;
-    for (const painted of this.figure.painted) painted.paint(this.#camera, light);
-  }
-
-  #follow() {
-    if (this.following) {
-      this.#step.subVectors(this.#middle, this.#last).setY(0); // a jump should look like one
-      this.#orbit.target.add(this.#step);
-      this.#camera.position.add(this.#step);
-    }
-    this.#last.copy(this.#middle);
+    for (const painted of this.figure.painted) painted.paint(this.#eye.camera, light);
   }
 
   #fit() {
@@ -166,7 +142,6 @@ export class Stage {
     if (!width || !height) return;
     this.#size = { width, height };
     this.#renderer.setSize(width, height, false);
-    this.#camera.aspect = width / height;
     this.draw();
   }
 
