@@ -81,7 +81,8 @@ def npz(export: Export, _: Options) -> ExportRecord:
 
 def plot(export: Export, _: Options) -> ExportRecord:
     """The curve, its key-frames, the cuts and the segments in colour."""
-    return export.keep(png(picture_of(export.document)), "image/png")
+    font = export.settings.font
+    return export.keep(png(picture_of(export.document), font.read_bytes() if font else None), "image/png")
 
 
 def clips(export: Export, options: Options) -> ExportRecord:

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Literal
 from urllib.parse import quote
 
-from pydantic import AliasChoices, Field
+from pydantic import AliasChoices, Field, FilePath
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
 from core.limits import Limits
@@ -40,6 +40,9 @@ class WorkerSettings(Limits, BaseSettings):
     keep_upload_days: float = Field(7.0, gt=0, description="days an upload and its analyses stay after their last use")
     keep_result_days: float = Field(30.0, gt=0, description="days a result stays")
 
+    font: FilePath | Literal[""] = Field(
+        "", description="a .ttf or .otf file for names in PNG plots; empty: plain letters alone"
+    )
     log_format: Literal["text", "json"] = Field("text", description="log lines: `text` for people, `json` for machines")
     min_free_bytes: int = Field(512 * 2**20, ge=0, description="bytes that stay free on the disk; below, no new work")
 

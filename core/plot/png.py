@@ -1,10 +1,10 @@
-"""A picture as PNG, drawn by Pillow with the font that it brings along: the same pixels on every machine."""
+"""A picture as PNG, drawn by Pillow: the same pixels on every machine, but for names in a font that was handed in."""
 
 import io
-from unicodedata import combining, normalize
 
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw
 
+from core.plot.lettering import Lettering, Written
 from core.plot.picture import TEXT, Box, Dot, Label, Line, Picture, Point
 
 SCALE = 2
@@ -14,14 +14,18 @@ SMOOTH = 3
 """Drawn so many times as large, for Pillow's strokes have hard edges, and made smaller at the end."""
 
 DASH = 3.0
-MISSING = "\uffff"
-"""No font has this letter, so it is drawn as letters are that a font lacks."""
+LACKING = "Names whose letters this font lacks are changed; see the SVG."
+"""Written at the foot of a picture whose names are not what they were."""
 
-Font = ImageFont.FreeTypeFont | ImageFont.ImageFont
+FAINT, EDGE = "#5c5c5c", 8
 
 
-def png(picture: Picture) -> bytes:
-    """The picture, on white, twice as many pixels either way."""
+def png(picture: Picture, font: bytes | None = None) -> bytes:
+    """The picture, on white, twice as many pixels either way.
+
+    Names that Pillow's own font cannot write are written in `font`, the content of a TrueType or OpenType file; the
+    picture says below where letters of a name are missing all the same.
+    """
     size = (picture.width * SCALE * SMOOTH, picture.height * SCALE * SMOOTH)
     canvas = Image.new("RGB", size, "#ffffff")
     pen = ImageDraw.Draw(canvas)
@@ -29,10 +33,13 @@ def png(picture: Picture) -> bytes:
         if not isinstance(shape, Label):
             _draw(pen, shape, SCALE * SMOOTH)
     small = canvas.resize((picture.width * SCALE, picture.height * SCALE), Image.Resampling.BOX)
-    font = ImageFont.load_default(TEXT * SCALE)
-    for label in picture.shapes:
-        if isinstance(label, Label):
-            _write(small, label, font)
+    lettering = Lettering(TEXT * SCALE, font)
+    written = [(label, lettering.of(label)) for label in picture.shapes if isinstance(label, Label)]
+    if not all(one.whole for _, one in written):
+        below = Label((picture.width - EDGE, picture.height - EDGE), LACKING, FAINT, "end")
+        written.append((below, lettering.of(below)))
+    for label, one in written:
+        _write(small, label, one)
     out = io.BytesIO()
     small.save(out, "PNG", dpi=(96 * SCALE, 96 * SCALE))
     return out.getvalue()
@@ -58,9 +65,8 @@ def _dashes(points: tuple[Point, ...]) -> list[tuple[Point, Point]]:
     return [((x, y), (x, min(y + DASH, bottom))) for y in starts]
 
 
-def _write(image: Image.Image, label: Label, font: Font) -> None:
-    bare = "".join(letter for letter in normalize("NFKD", label.text) if not combining(letter))
-    text = next((text for text in (label.text, bare) if _has(font, text)), label.spare)
+def _write(image: Image.Image, label: Label, written: Written) -> None:
+    text, font, _ = written
     x, y = label.at[0] * SCALE, label.at[1] * SCALE
     if not label.upright:
         anchor = {"start": "ls", "middle": "ms", "end": "rs"}[label.anchor]
@@ -71,9 +77,3 @@ def _write(image: Image.Image, label: Label, font: Font) -> None:
     ImageDraw.Draw(ink).text((0, 0), text, 255, font)
     turned = ink.transpose(Image.Transpose.ROTATE_90)
     image.paste(label.colour, (round(x - turned.width / 2), round(y - turned.height / 2)), turned)
-
-
-def _has(font: Font, text: str) -> bool:
-    """Whether the font has every letter."""
-    lacking = bytes(font.getmask(MISSING))
-    return all(letter.isspace() or bytes(font.getmask(letter)) != lacking for letter in set(text))

@@ -1,5 +1,6 @@
 """What `caesura segment` writes beside what it prints: one file of a form, or all forms of every file in a folder."""
 
+import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -42,7 +43,8 @@ def _plot_png(_parts: Parts, found: SegmentationDocument, _options: ClipOptions)
     from core.plot.layout import picture_of
     from core.plot.png import png
 
-    return ".png", iter([png(picture_of(found))])
+    font = os.environ.get("CAESURA_FONT")
+    return ".png", iter([png(picture_of(found), Path(font).read_bytes() if font else None)])
 
 
 FORMS: dict[str, tuple[Write, str]] = {

@@ -11,7 +11,8 @@ import pytest
 from PIL import Image
 
 from core.document import KeyFrame, Segment, SegmentationDocument, Source, motion_name
-from core.plot.layout import COLOURS, DISCARDED, picture_of
+from core.errors import ParameterError
+from core.plot.layout import BAR, COLOURS, CURVE, DISCARDED, GAP, TOP, picture_of
 from core.plot.picture import Box, Dot, Label, Line
 from core.plot.png import SCALE, png
 from core.plot.svg import svg
@@ -95,11 +96,56 @@ def test_a_name_stays_a_name():
     assert '</text><script>alert("1")</script>&amp;' in {element.text for element in root.iter()}
 
 
-def test_a_name_that_the_font_lacks_is_still_named():
+def drawn(name, font=None):
+    """The picture of a result whose first motion has a name: the bar of its segments, and the foot."""
+    picture = picture_of(document(names=[name, "B", "C"]))
+    image = Image.open(io.BytesIO(png(picture, font)))
+    bar = (TOP + CURVE + GAP) * SCALE, (TOP + CURVE + GAP + BAR) * SCALE
+    above, below = (image.crop((0, start, image.width, end)) for start, end in (bar, (bar[1], image.height)))
+    return above, below
+
+
+def test_a_name_that_the_font_lacks_is_still_named_and_that_is_said():
     """Pillow's font has plain letters alone: accents are left away in the PNG, and for ideographs stands a letter."""
-    drawn = {name: png(picture_of(document(names=[name, "B", "C"]))) for name in ("A", "歩く", "été", "ete")}
-    assert drawn["歩く"] == drawn["A"]
-    assert drawn["été"] == drawn["ete"] != drawn["A"]
+    bar, foot = drawn("A")
+    for name, shown in (("été", drawn("ete")[0]), ("歩く", bar)):
+        changed, said = drawn(name)
+        assert changed == shown
+        assert said != foot
+    assert drawn("ete")[1] == foot
+
+
+def font_of(letters):
+    """A bitmap font (BDF) in which every one of these letters is a block, and every other is blank."""
+    glyphs = "".join(
+        f"STARTCHAR u{ord(one):04X}\nENCODING {ord(one)}\nSWIDTH 500 0\nDWIDTH 16 0\nBBX 16 26 0 0\nBITMAP\n"
+        + ("0000\n" if one == " " else "FFFF\n") * 26 + "ENDCHAR\n"
+        for one in " " + letters
+    )  # fmt: skip
+    return (
+        "STARTFONT 2.1\nFONT -t-t-medium-r-normal--26-190-96-96-c-160-iso10646-1\nSIZE 26 72 72\n"
+        "FONTBOUNDINGBOX 16 26 0 0\nSTARTPROPERTIES 4\nFONT_ASCENT 26\nFONT_DESCENT 0\n"
+        'CHARSET_REGISTRY "ISO10646"\nCHARSET_ENCODING "1"\nENDPROPERTIES\n'
+        f"CHARS {len(letters) + 1}\n{glyphs}ENDFONT\n"
+    ).encode()
+
+
+def test_a_font_that_is_handed_in_writes_what_the_other_lacks():
+    """Plain names stay as they are on every machine; with all letters there, nothing is said below."""
+    font = font_of("ét歩く")
+    for name in ("été", "歩く"):
+        bar, foot = drawn(name, font)
+        assert bar != drawn(name)[0]
+        assert foot == drawn("A")[1]
+    assert [drawn("walk", font)[part].tobytes() for part in (0, 1)] == [
+        drawn("walk")[part].tobytes() for part in (0, 1)
+    ]
+
+
+def test_what_is_no_font_is_refused():
+    """In words that say which files are."""
+    with pytest.raises(ParameterError, match=r"\.ttf or \.otf"):
+        drawn("été", b"no font")
 
 
 def test_the_same_result_is_the_same_bytes():
