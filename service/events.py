@@ -1,6 +1,6 @@
 """Status as server-sent events: each change once, a sign of life every 15 s, the end after the last change."""
 
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import aclosing
 
 from anyio import current_time
@@ -11,16 +11,20 @@ from worker.schema import SegmentationRecord
 
 QUIET_SECONDS = 15.0
 
+Admitted = Callable[[], Awaitable[bool]]
+"""Whether who listens may still do so."""
+
 
 def event_id(record: SegmentationRecord) -> str:
     """Names one state of a record: what a client sends back as Last-Event-ID."""
     return f"{record.updated:.6f}"
 
 
-async def status_events(backend: Backend, identifier: str, last_seen: str) -> AsyncIterator[str]:
+async def status_events(backend: Backend, identifier: str, last_seen: str, admitted: Admitted) -> AsyncIterator[str]:
     """The stream's text: `status` events with a status document each; `deleted` where it is deleted meanwhile.
 
-    A state that the client has seen, as its Last-Event-ID says, is not sent again.
+    A state that the client has seen, as its Last-Event-ID says, is not sent again. It ends before the next word, and
+    within the seconds after which the record is read again, where the listener is no longer `admitted`.
     """
     yield ": caesura\n\n"
     spoke = current_time()
@@ -28,7 +32,7 @@ async def status_events(backend: Backend, identifier: str, last_seen: str) -> As
         while True:
             with backend.patience() as patience:
                 record = await anext(changes)
-            if patience.cancelled_caught:
+            if patience.cancelled_caught or not await admitted():
                 return
             if record is None:
                 yield "event: deleted\ndata: {}\n\n"

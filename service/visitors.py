@@ -31,6 +31,12 @@ async def visitor(backend: Backend, request: Request) -> Visitor | None:
     return None if record is None else Visitor(record.owner, record.digest, by_cookie=True)
 
 
+async def admitted(backend: Backend, request: Request) -> bool:
+    """Whether who was let in with this request would be now: the key not revoked, the session not signed out."""
+    known: Visitor = request.state.visitor
+    return not known.key or await visitor(backend, request) == known
+
+
 async def find_key(backend: Backend, digest: str) -> KeyRecord | None:
     """The key of this digest, of the file or of Redis; None where it was never made, or revoked."""
     return backend.key_file.find(digest) or KeyRecord.read(await backend.records.redis.get(keys.api_key_key(digest)))

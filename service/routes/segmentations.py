@@ -1,6 +1,7 @@
 """Segmentations: asking for one, following it, cancelling or deleting it."""
 
 import itertools
+from functools import partial
 from typing import Annotated
 
 from anyio import to_thread
@@ -20,6 +21,7 @@ from service.paging import Cursor, Limit, created_before, cursor_of
 from service.preferences import wait_seconds
 from service.submission import submit
 from service.uploads import received
+from service.visitors import admitted
 from worker.forgetting import forget_segmentation
 from worker.schema import SegmentationRecord
 
@@ -80,13 +82,13 @@ async def status(identifier: str, request: Request, backend: Behind, owner: Owne
 
 @router.get("/{identifier}/events", response_class=StreamingResponse, responses=EVENTS)
 async def events(
-    identifier: str, backend: Behind, owner: Owner, last_event_id: Annotated[str, Header()] = ""
+    identifier: str, request: Request, backend: Behind, owner: Owner, last_event_id: Annotated[str, Header()] = ""
 ) -> Response:
-    """The same, live: an event at every change, until it is over."""
+    """The same, live: an event at every change, until it is over, or the key that asked is revoked."""
     record = await backend.segmentation(identifier, owner)
     if not record.live and event_id(record) == last_event_id:
         return Response(status_code=204)  # tells an EventSource not to come back
-    stream = status_events(backend, identifier, last_event_id)
+    stream = status_events(backend, identifier, last_event_id, partial(admitted, backend, request))
     return StreamingResponse(stream, headers={"Cache-Control": "no-store"}, media_type="text/event-stream")
 
 

@@ -1,5 +1,6 @@
 """Nobody gets in without a key, and nobody learns of another's things: every call that OpenAPI lists is tried."""
 
+import itertools
 import re
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from service.credentials import new_key
 from service.key_file import line
 from service.settings import ServiceSettings
 from tests.service.conftest import serve, with_its_own_redis
+from worker.records import Records
 
 OPEN = {"GET /healthz", "GET /readyz", "POST /v1/session", "DELETE /v1/session"}
 """What needs no key. Whatever else there is, or will be, does."""
@@ -206,6 +208,31 @@ def test_a_revoked_key_ends_its_sessions(owned):
     owned.ring.revoke("passing")
     assert owned.ask(status, headers=cookie).status_code == owned.ask(status, key).status_code == 401
     assert owned.ask(status, owned.mine).status_code == 200
+
+
+@pytest.mark.parametrize("by", ["key", "signed out"])
+def test_an_open_event_stream_ends_with_its_key(owned, by):
+    """The job goes on and says nothing; the stream ends within seconds of the revocation, and another's stays open."""
+    key = owned.key("listening", owner=owned.ring.named("mine").owner)
+    headers = {"Authorization": f"Bearer {key}"} if by == "key" else owned.cookie(key)
+    address = f"{owned.url}/v1/segmentations/{owned.segmentation}/events"
+    staying = {"Authorization": f"Bearer {owned.mine}"}
+    with httpx.Client(timeout=20) as client, client.stream("GET", address, headers=staying) as other:
+        words = other.iter_text()
+        assert "caesura" in next(words)
+        with client.stream("GET", address, headers=headers) as stream:
+            heard = stream.iter_text()
+            assert "caesura" in next(heard)
+            if by == "signed out":
+                assert owned.ask("DELETE /v1/session", headers=headers | {"Origin": owned.url}).status_code == 204
+            else:
+                owned.ring.revoke("listening")
+            assert "deleted" not in "".join(heard)  # and it ends: this returns
+        assert owned.ask("GET /v1/limits", headers=headers).status_code == 401
+        Records(owned.redis).change(owned.segmentation, lambda record: record)
+        assert '"queued"' in "".join(itertools.islice(words, 2))
+    if by == "signed out":
+        owned.ring.revoke("listening")
 
 
 def test_a_wrong_key_does_not_sign_in(owned):
