@@ -1,5 +1,6 @@
 """Memory that is used again: the system clears fresh pages one by one, which costs more than what is done in them."""
 
+import math
 import weakref
 from collections import defaultdict, deque
 
@@ -17,18 +18,18 @@ class Buffers:
     """
 
     def __init__(self) -> None:
-        self._free: defaultdict[int, deque[memoryview]] = defaultdict(deque)
+        self._free: defaultdict[int, deque[tuple[memoryview, int]]] = defaultdict(deque)
 
     def empty(self, shape: tuple[int, ...], dtype: DTypeLike) -> np.ndarray:
         """An array with anything in it."""
         kind = np.dtype(dtype)
-        count = int(np.prod(shape))
+        count = math.prod(shape)
         size = count * kind.itemsize + ALIGNMENT
         try:
-            memory = self._free[size].pop()
+            memory, start = self._free[size].pop()
         except IndexError:
-            memory = memoryview(np.empty(size, np.uint8))  # type: ignore[arg-type]  # an array is a buffer
-        start = -np.frombuffer(memory, np.uint8).ctypes.data % ALIGNMENT
+            fresh = np.empty(size, np.uint8)
+            memory, start = memoryview(fresh), -fresh.ctypes.data % ALIGNMENT  # type: ignore[arg-type]  # a buffer
         line = np.frombuffer(memory, kind, count, start) if count else np.empty(0, kind)
-        weakref.finalize(line, self._free[size].append, memory).atexit = False
+        weakref.finalize(line, self._free[size].append, (memory, start)).atexit = False
         return line.reshape(shape)

@@ -22,6 +22,7 @@ Counted = tuple[int, np.ndarray]
 """The code from which on codes are counted, and their counts."""
 
 _NOT_KEPT = np.empty((0, 0), np.uint16)
+_COUNTED_BEFORE = np.empty(0, np.int64)
 
 
 @dataclass(frozen=True)
@@ -93,10 +94,11 @@ class Surveyor:
         for columns, tile in surface.tiles(vertices):
             if patches.patches:
                 patches.add(columns, tile, sums)
-            most, more = self.coding.read(tile, self.noise[columns], floor, histogram)
+            if len(histogram):
+                most, more = self.coding.read(tile, self.noise[columns], floor, histogram)
+                largest, above = max(largest, most), above + more
             if len(codes):
                 self.coding.turn(tile, codes, columns.start)
-            largest, above = max(largest, most), above + more
         return largest, above
 
     @property
@@ -111,7 +113,7 @@ class Surveyor:
         vertices = draw(self.animation, block, checked=True)
         codes = self._cleared(buffers.empty((len(vertices), self.row), np.uint16))
         nothing = np.empty((0, len(vertices)), np.float32)
-        self._read(vertices, (NO_PATCHES, nothing), codes, (CODES, np.empty(1, np.int64)))
+        self._read(vertices, (NO_PATCHES, nothing), codes, (CODES, _COUNTED_BEFORE))
         return codes
 
     def _cleared(self, codes: np.ndarray) -> np.ndarray:

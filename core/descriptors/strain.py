@@ -212,7 +212,8 @@ class TriangleStrain:
 
 def _to_width(values: Float32[np.ndarray, "frames"]) -> Float32[np.ndarray, "whole"]:
     """The values with the last one repeated up to a multiple of `WIDTH`."""
-    return np.pad(values, (0, -len(values) % WIDTH), mode="edge")
+    missing = -len(values) % WIDTH
+    return np.pad(values, (0, missing), mode="edge") if missing else values
 
 
 def _readable(rows: Float32[np.ndarray, "v 3 width"]) -> bool:

@@ -17,6 +17,9 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float32]
 Indices = NDArray[np.int32]
 
+LINE = 16
+"""Floats in a line of the cache."""
+
 _ZERO = ir.Constant(ir.IntType(64), 0)
 _FOUR = ir.VectorType(ir.FloatType(), 4)
 _INTERLEAVED_LOW, _INTERLEAVED_HIGH = (0, 4, 1, 5), (2, 6, 3, 7)
@@ -92,19 +95,20 @@ def fetch(vertices: Floats, members: Indices, start: int, stop: int) -> None:
 def gather(vertices: Floats, members: Indices, rows: Floats) -> None:
     """rows[i, axis, f] = vertices[f, members[i], axis].
 
-    Eight frames at a time: few enough to be read ahead as streams, enough to write runs of each row.
+    Sixteen frames at a time: they fill a line of the cache in each row.
     """
     frames, last = vertices.shape[0], vertices.shape[1] - 1
-    eights = frames // 8 * 8
-    for f in range(0, eights, 8):
+    fours = frames // 4 * 4
+    for start in range(0, fours, LINE):
+        stop = min(start + LINE, fours)
         for i in range(members.size):
             if members[i] != last:
-                _turn_four(vertices, f, members[i], rows, i)
-                _turn_four(vertices, f + 4, members[i], rows, i)
+                for f in range(start, stop, 4):
+                    _turn_four(vertices, f, members[i], rows, i)
             else:
-                _copy_frames(vertices, f, f + 8, members[i], rows[i])
+                _copy_frames(vertices, start, stop, members[i], rows[i])
     for i in range(members.size):
-        _copy_frames(vertices, eights, frames, members[i], rows[i])
+        _copy_frames(vertices, fours, frames, members[i], rows[i])
 
 
 @njit(nogil=True, cache=True, error_model="numpy", inline="always")

@@ -46,10 +46,11 @@ def read_block(
     """Up to `WIDTH` frames: every tile gathered, strained, added to the means, counted and encoded.
 
     Tile i has the members from `member_ends[i]` to `member_ends[i + 1]`, and the triangles likewise by `ends`. `codes`
-    has no rows where none are kept, `means` none where there are no patches. Returns the bits of the largest strain
-    and how many strains are above noise, `UNREADABLE` where a corner is no number or beyond `REACH`.
+    has no rows where none are kept, `means` none where there are no patches, and `histogram` nothing where all was
+    looked at and counted before. Returns the bits of the largest strain and how many strains are above noise,
+    `UNREADABLE` where a corner is no number or beyond `REACH`.
     """
-    frames = vertices.shape[0]
+    frames, counted = vertices.shape[0], histogram.size > 0
     largest, above, tops = 0, np.zeros(frames, np.int32), np.empty(TOGETHER, np.int32)
     for i in range(ends.size - 1):
         own = members[member_ends[i] : member_ends[i + 1]]
@@ -59,7 +60,7 @@ def read_block(
         for v in range(own.size if frames < WIDTH else 0):  # frames that are not there repeat the last
             for axis in range(3):
                 gathered[v, axis, frames:] = gathered[v, axis, frames - 1]
-        if largest_bits(gathered.reshape(-1).view(np.int32)) > _REACH_BITS:
+        if counted and largest_bits(gathered.reshape(-1).view(np.int32)) > _REACH_BITS:
             return largest, UNREADABLE
         lines = gathered.reshape((own.size, 3 * WIDTH))
         later = members[member_ends[i + 1] : member_ends[min(i + 2, ends.size - 1)]]
@@ -69,13 +70,14 @@ def read_block(
             fetch(vertices, later, soon, (last - start) * WIDTH // (end - start))
             strain = tile[: last - first]
             strain_tile(lines, corners[first:last], shapes[first:last], scale, measure, scratch, strain, tops)
-            for t in range(last - first):
-                largest = max(largest, int(tops[t]))
             if means.shape[0] > 0:
                 add_weighted(strain, weights[first:last], groups[first:last], means)
             bits = strain.view(np.int32)
-            count_above(bits, noise[first:last], above)
-            count_codes(bits, tops, frames, lowest, floor, histogram)
+            if counted:
+                for t in range(last - first):
+                    largest = max(largest, int(tops[t]))
+                count_above(bits, noise[first:last], above)
+                count_codes(bits, tops, frames, lowest, floor, histogram)
             if codes.shape[0] > 0:
                 encode(bits, frames, lowest, codes, first)
     return largest, int(above.sum())
