@@ -37,6 +37,7 @@ STATUS: dict[str, int] = {
     "upload-too-large": 413,
     "key-needed": 401,
     "unknown-key": 401,
+    "not-allowed": 403,
     "foreign-host": 403,
     "foreign-origin": 403,
     "not-found": 404,

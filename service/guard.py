@@ -19,6 +19,7 @@ from service.visitors import Visitor, visitor
 
 PROBES = frozenset({"/healthz", "/readyz"})
 SESSION = "/v1/session"
+METRICS = "/metrics"
 SAFE = frozenset({"GET", "HEAD", "OPTIONS"})
 
 
@@ -72,10 +73,20 @@ class Guard:
         told = await self._count(backend, request, known)
         if known is None and request.scope["path"] != SESSION:
             raise _unknown(request)
+        if known is not None:
+            self._check_reach(known, request.scope["path"])
         if known is not None and known.by_cookie and not reading:
             self._origins.check_named(request.headers)
         request.state.visitor = known
         return told
+
+    def _check_reach(self, known: Visitor, path: str) -> None:
+        """Raises the refusal where it is not for this key: /metrics has everybody's sums, and keys of its own."""
+        if not self._keys_needed or known.metrics == (path == METRICS) or path == SESSION:
+            return
+        wanted = "This key opens /metrics and nothing else." if known.metrics else "This key does not open /metrics."
+        detail = f"{wanted} The keeper of this service makes one that does: caesura keys add NAME"
+        raise Refusal("not-allowed", detail + ("." if known.metrics else " --metrics."))
 
     async def _count(self, backend: Backend, request: Request, known: Visitor | None) -> dict[str, str]:
         if not self._limit:

@@ -1,4 +1,5 @@
-"""Keys from a mounted file, such as a secret of Kubernetes: a line `NAME OWNER DIGEST` for each, `#` for remarks.
+"""Keys from a mounted file, such as a secret of Kubernetes: a line `NAME OWNER DIGEST` for each, `metrics`
+behind one that opens /metrics and nothing else, `#` for remarks.
 
 The file is read again when it has changed, so that a key is added or revoked without a restart.
 """
@@ -12,7 +13,7 @@ from service.credentials import KeyRecord
 
 log = logging.getLogger(__name__)
 
-_LINE = re.compile(r"(\S+)\s+(\S+)\s+([0-9a-f]{64})")
+_LINE = re.compile(r"(\S+)\s+(\S+)\s+([0-9a-f]{64})(\s+metrics)?")
 
 
 class KeyFile:
@@ -41,7 +42,7 @@ class KeyFile:
 
 def line(record: KeyRecord) -> str:
     """A key as the file has it."""
-    return f"{record.name} {record.owner} {record.digest}"
+    return f"{record.name} {record.owner} {record.digest}{' metrics' if record.metrics else ''}"
 
 
 def _read(path: Path) -> dict[str, KeyRecord]:
@@ -50,8 +51,8 @@ def _read(path: Path) -> dict[str, KeyRecord]:
         said = text.partition("#")[0].strip()
         match = _LINE.fullmatch(said)
         if match:
-            name, owner, digest = match.groups()
-            known[digest] = KeyRecord(name=name, owner=owner, digest=digest)
+            name, owner, digest, metrics = match.groups()
+            known[digest] = KeyRecord(name=name, owner=owner, digest=digest, metrics=bool(metrics))
         elif said:
             log.error("%s, line %d is no key: NAME OWNER DIGEST is what `caesura keys add --line` prints", path, number)
     return known

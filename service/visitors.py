@@ -12,11 +12,12 @@ from worker import keys
 
 @dataclass(frozen=True)
 class Visitor:
-    """Whose the request is. `key` is the digest of the key, empty where none was needed."""
+    """Whose the request is. `key` is the digest of the key, empty where none was needed; `metrics` as the key."""
 
     owner: str
     key: str = ""
     by_cookie: bool = False
+    metrics: bool = False
 
 
 async def visitor(backend: Backend, request: Request) -> Visitor | None:
@@ -24,11 +25,11 @@ async def visitor(backend: Backend, request: Request) -> Visitor | None:
     scheme, _, key = request.headers.get("authorization", "").partition(" ")
     if scheme:
         record = await find_key(backend, digest_of(key.strip())) if scheme.lower() == "bearer" else None
-        return None if record is None else Visitor(record.owner, record.digest)
+        return None if record is None else Visitor(record.owner, record.digest, metrics=record.metrics)
     identifier = request.cookies.get(sessions.COOKIE)
     digest = await sessions.key_digest(backend.records.redis, identifier) if identifier else None
     record = await find_key(backend, digest) if digest else None
-    return None if record is None else Visitor(record.owner, record.digest, by_cookie=True)
+    return None if record is None else Visitor(record.owner, record.digest, True, record.metrics)
 
 
 async def admitted(backend: Backend, request: Request) -> bool:

@@ -26,32 +26,38 @@ def keys() -> None:
 @click.argument("name")
 @click.option("--like", metavar="NAME", help="See what the key NAME sees, so that this one can take its place.")
 @click.option("--local", is_flag=True, help="See what was made while no key was needed.")
+@click.option(
+    "--metrics", is_flag=True, help="For Prometheus: it opens /metrics, which no other key opens, and nothing else."
+)
 @click.option("--line", is_flag=True, help="Keep it nowhere: print the line for CAESURA_KEYS_FILE too.")
-def add(name: str, like: str | None, local: bool, line: bool) -> None:
+def add(name: str, like: str | None, local: bool, metrics: bool, line: bool) -> None:
     """Make a key called NAME, and show it."""
     from service import key_file
     from service.credentials import new_key
 
-    if like and local:
-        raise ParameterError("invalid-parameter", "--like and --local each say whose the key is. Give one of them.")
+    if sum(map(bool, (like, local, metrics))) > 1:
+        detail = "--like, --local and --metrics each say what the key sees. Give one of them."
+        raise ParameterError("invalid-parameter", detail)
     if line:
         if like:
             raise ParameterError("invalid-parameter", "With --line, copy the owner from the other key's line.")
-        key, record = new_key(name)
+        key, record = new_key(name, metrics=metrics)
         click.echo(f"{key}\n{key_file.line(record)}")
         return
     with _ring() as ring:
-        key, record = new_key(name, "" if local else ring.named(like).owner if like else None)
+        owner = "" if local else ring.named(like).owner if like else None
+        key, record = new_key(name, owner, metrics=metrics)
         ring.add(record)
     click.echo(key)
 
 
 @keys.command("list", cls=Command)
 def list_() -> None:
-    """Names, and the day each was made."""
+    """Names, the day each was made, and which open /metrics alone."""
     with _ring() as ring:
         for record in ring.all():
-            click.echo(f"{record.name:<32} {time.strftime('%Y-%m-%d', time.gmtime(record.created))}")
+            made = time.strftime("%Y-%m-%d", time.gmtime(record.created))
+            click.echo(f"{record.name:<32} {made}{'  metrics' if record.metrics else ''}")
 
 
 @keys.command(cls=Command)

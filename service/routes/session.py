@@ -6,6 +6,7 @@ from pydantic import BaseModel, Field
 from service import sessions
 from service.backend import Behind
 from service.credentials import digest_of
+from service.errors import Refusal
 from service.guard import Unknown
 from service.visitors import find_key
 
@@ -24,6 +25,8 @@ async def sign_in(request: Request, backend: Behind, given: SignIn) -> Response:
     record = await find_key(backend, digest_of(given.key.strip()))
     if record is None:
         raise Unknown("unknown-key", "This key opens nothing here: it is wrong, or it was revoked.")
+    if record.metrics:
+        raise Refusal("not-allowed", "This key opens /metrics and nothing else. Sign in with one that sees takes.")
     response = Response(status_code=204)
     await sessions.begin(backend.records.redis, record.digest, request, response)
     return response

@@ -235,6 +235,30 @@ def test_an_open_event_stream_ends_with_its_key(owned, by):
         owned.ring.revoke("listening")
 
 
+def test_sums_of_everybody_are_for_a_key_of_their_own(owned):
+    """An owner's key does not open /metrics; one made for it opens that and nothing else, from Redis or a file."""
+    key, record = new_key("prometheus", metrics=True)
+    owned.ring.add(record)
+    mounted, mounted_record = new_key("prometheus-2", metrics=True)
+    file = owned.running.data / "keys"
+    kept = file.read_text()
+    file.write_text(kept + line(mounted_record) + "\n")
+    for opening in (key, mounted):
+        assert "caesura_requests_total" in owned.ask("GET /metrics", opening).text
+        for call in CALLS:
+            if call not in OPEN | {"GET /metrics"}:
+                refused = owned.ask(call, opening)
+                assert (refused.status_code, refused.json()["code"]) == (403, "not-allowed"), call
+    refused = owned.ask("GET /metrics", owned.mine)
+    assert (refused.status_code, refused.json()["code"]) == (403, "not-allowed")
+    assert "caesura_" not in refused.text
+    signed_in = owned.sent("POST", "/v1/session", json={"key": key})
+    assert (signed_in.status_code, signed_in.json()["code"]) == (403, "not-allowed")
+    assert "set-cookie" not in signed_in.headers
+    file.write_text(kept)
+    owned.ring.revoke("prometheus")
+
+
 def test_a_wrong_key_does_not_sign_in(owned):
     """401, no cookie, and the key is in no answer."""
     answer = owned.sent("POST", "/v1/session", json={"key": "caesura_secret"})
@@ -278,6 +302,11 @@ def test_the_command_makes_lists_and_revokes_keys(owned):
     assert key not in caesura("list")
     assert re.search(r"^farm +\d{4}-\d\d-\d\d$", caesura("list"), re.MULTILINE)
     caesura("add", "farm", status=2)
+    sums = caesura("add", "board", "--metrics").strip()
+    assert owned.ask("GET /metrics", sums).status_code == 200
+    assert re.search(r"^board .*metrics$", caesura("list"), re.MULTILINE)
+    caesura("add", "other", "--metrics", "--local", status=2)
+    caesura("revoke", "board")
     caesura("revoke", "farm")
     assert owned.ask("GET /v1/limits", key).status_code == 401
     assert "farm" not in caesura("list")
