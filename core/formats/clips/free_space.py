@@ -49,7 +49,7 @@ def free_ranges(json: dict[str, Any], freed: Iterable[int], windows: Iterable[di
     ]
     used = [r for a in [*kept, *windows] for view, start, size in places(a) for r in [_at(views, view, start, size)]]
     used += [r for number in set(range(len(views))) - touched | opaque for r in whole_view(views[number])]
-    return list(_without(joined(free), joined(used)))
+    return list(without(joined(free), joined(used)))
 
 
 def unused_views(json: dict[str, Any], freed: Iterable[int], windows: Iterable[dict[str, Any]]) -> list[int]:
@@ -142,7 +142,7 @@ def joined(ranges: Iterable[Range]) -> list[Range]:
     return joined
 
 
-def _without(free: list[Range], used: list[Range]) -> Iterator[Range]:
+def without(free: Iterable[Range], used: list[Range]) -> Iterator[Range]:
     """What of `free` is not in `used`; both are in order and apart."""
     first = 0
     for start, end in free:

@@ -6,11 +6,12 @@ from itertools import groupby
 from typing import Any
 
 from core.formats.clips.binary_chunk import BinaryChunk
-from core.formats.clips.free_space import free_ranges, joined, unused_views
+from core.formats.clips.free_space import free_ranges, joined, unused_views, whole_view
 from core.formats.clips.packing import Compression, Strip, compression_of
-from core.formats.clips.self_contained import SelfContained
+from core.formats.clips.self_contained import SelfContained, addressed
 from core.formats.clips.streams import WORTH, shortened
 from core.formats.gltf.accessors import Accessors
+from core.formats.gltf.document import COMPRESSED
 
 UNUSED = {"componentType": 5126, "count": 1, "type": "SCALAR"}
 """What stands in the place of an accessor that is gone, so that the numbers of the others stay."""
@@ -50,8 +51,20 @@ def placed(file: SelfContained, accessors: Accessors, freed: Sequence[int], new:
     _put(root, chunk, spare, (accessor for accessor in new if accessor.data is not None))
     for view in views:  # of a take that lay last only parts may have stayed
         if view["buffer"] == 0:
-            view["byteLength"] = min(view["byteLength"], chunk.length - view.get("byteOffset", 0))
+            view["byteLength"] = min(view["byteLength"], chunk.end - view.get("byteOffset", 0))
+    _squeeze(chunk, [view for number, view in enumerate(views) if number not in spare])
     return chunk
+
+
+def _squeeze(chunk: BinaryChunk, views: Iterable[dict[str, Any]]) -> None:
+    """Cut out what room is left, and move the views behind it; not where an extension may say what lies there."""
+    views = list(views)
+    if any(view.get("extensions", {}).keys() - COMPRESSED for view in views):
+        return
+    chunk.squeeze(joined(part for view in views for part in whole_view(view)))
+    for part in (part for view in views for part in addressed(view)):
+        if part["buffer"] == 0 and "byteOffset" in part:
+            part["byteOffset"] = chunk.moved(part["byteOffset"])
 
 
 class _Views:

@@ -45,7 +45,7 @@ class SelfContained:
         places = {index: (0, shift) for index, shift in shifts.items()}
         places |= {index: (1 + rank, 0) for rank, index in enumerate(stand_ins)}
         for view in self.json.get("bufferViews", []):
-            for part in _addressed(view):
+            for part in addressed(view):
                 part["buffer"], shift = places[part["buffer"]]
                 if shift:
                     part["byteOffset"] = part.get("byteOffset", 0) + shift
@@ -68,7 +68,7 @@ class SelfContained:
             image |= {"bufferView": len(views) - 1, "mimeType": kind}
 
 
-def _addressed(view: dict[str, Any]) -> Iterator[dict[str, Any]]:
+def addressed(view: dict[str, Any]) -> Iterator[dict[str, Any]]:
     """What of a view says where bytes are: itself, and the extensions that compress it."""
     yield view
     for name in COMPRESSED & view.get("extensions", {}).keys():

@@ -14,7 +14,6 @@ import numpy as np
 from core.formats.clips.free_space import Range, places, views_of_others, whole_view
 from core.formats.gltf.accessors import Accessors
 from core.formats.gltf.document import COMPRESSED
-from core.formats.gltf.meshopt.attributes.kernels import attributes
 from core.formats.gltf.meshopt.encoding.kernels import encoded
 
 WORTH = 1024
@@ -57,8 +56,8 @@ def _shorter(stream: Stream, accessors: Accessors, kept: list[Range]) -> Iterato
     if not kept:
         yield stream
         return
-    elements = np.zeros((stream.extension["count"], stream.extension["byteStride"]), np.uint8)
-    if not attributes(np.frombuffer(accessors.stream(stream.view), np.uint8), elements):
+    elements = accessors.coded(stream.view)
+    if elements is None:
         return
     stride = elements.shape[1]
     named = np.zeros(len(elements), bool)
@@ -75,7 +74,7 @@ def _stream(json: dict[str, Any], view: int) -> Stream | None:
     entry = json["bufferViews"][view]
     found = [entry.get("extensions", {}).get(name) for name in sorted(COMPRESSED)]
     extension = next(filter(None, found), None)
-    if extension is None or "byteStride" in entry or extension["mode"] != "ATTRIBUTES" or extension["buffer"]:
+    if extension is None or "byteStride" in entry or extension["buffer"]:
         return None
     start = extension.get("byteOffset", 0)
     return Stream(view, extension, start, start + extension["byteLength"], b"")

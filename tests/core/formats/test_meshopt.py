@@ -197,3 +197,12 @@ def test_decoded_views_count_against_the_budget() -> None:
     model.json["bufferViews"][0]["byteLength"] = 2**30
     with pytest.raises(LimitExceeded, match="CAESURA_MAX_DECODED_BYTES"):
         opened(model.glb(), Limits(max_decoded_bytes=2**20))
+
+
+def test_no_room_is_made_for_more_than_a_stream_can_hold() -> None:
+    """Of a quarter of a terabyte, said to be in a few bytes, nothing is tried."""
+    model = compressed(count=2**36, byteStride=4)
+    model.json["bufferViews"][0]["byteLength"] = 2**38
+    with pytest.raises(InvalidModel) as refused:
+        opened(model.glb(), Limits.none())
+    assert refused.value.code == "decompression-failed"

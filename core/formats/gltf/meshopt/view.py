@@ -3,6 +3,7 @@
 from typing import NoReturn
 
 import numpy as np
+from jaxtyping import UInt8
 
 from core.errors import InvalidModel
 from core.formats.gltf.entry import Entry
@@ -12,6 +13,9 @@ from core.formats.gltf.meshopt.indices.kernels import sequence, triangles
 
 MODES = ("ATTRIBUTES", "TRIANGLES", "INDICES")
 LONGEST_ELEMENT = 256
+
+MOST_TIMES = 1024
+"""So many bytes come out of one at most: a quarter of one says that 256 are as those before."""
 
 
 def decoded_size(view: Entry, extension: Entry) -> int:
@@ -35,19 +39,31 @@ def decode(extension: Entry, data: memoryview) -> memoryview:
     count, stride = extension.whole("count"), extension.whole("byteStride")
     mode, source = extension.text("mode"), np.frombuffer(data, np.uint8)
     if mode == "ATTRIBUTES":
-        elements = np.zeros((count, stride), np.uint8)
-        good = attributes(source, elements)
+        elements = coded(extension, data)
         undo, _ = FILTERS[extension.text("filter", "NONE")]
-        if good and undo is not None and count:
+        if undo is not None and count:
             with np.errstate(all="ignore"):
                 elements = undo(elements)
-    else:
-        corners = np.zeros(count, np.int64)
-        good = triangles(source, corners.reshape(-1, 3)) if mode == "TRIANGLES" else sequence(source, corners)
-        elements = corners.astype(f"<u{stride}").view(np.uint8).reshape(count, stride)
-    if not good:
-        _fail(extension, "breaks off, or goes on after its end")
-    return elements.reshape(-1).data
+        return elements.reshape(-1).data
+    corners = np.zeros(count, np.int64)
+    if not (triangles(source, corners.reshape(-1, 3)) if mode == "TRIANGLES" else sequence(source, corners)):
+        _broken(extension)
+    return corners.astype(f"<u{stride}").view(np.uint8).reshape(-1).data
+
+
+def coded(extension: Entry, data: memoryview) -> UInt8[np.ndarray, "count stride"]:
+    """Attributes as the codec has them, before any filter; raises `decompression-failed`."""
+    shape = extension.whole("count"), extension.whole("byteStride")
+    if shape[0] * shape[1] > MOST_TIMES * len(data):
+        _broken(extension)
+    elements = np.zeros(shape, np.uint8)
+    if not attributes(np.frombuffer(data, np.uint8), elements):
+        _broken(extension)
+    return elements
+
+
+def _broken(extension: Entry) -> NoReturn:
+    _fail(extension, "breaks off, or goes on after its end")
 
 
 def _fail(extension: Entry, what: str) -> NoReturn:

@@ -62,3 +62,32 @@ def test_names_of_any_script_are_as_short_as_they_were(name):
     assert chunks_of(glb)[0]["nodes"][1]["name"] == name
     assert (name.encode(errors="ignore") or b"\\ud800") in glb
     assert json.dumps(name).encode() not in glb or name == "\ud800"
+
+
+def with_an_image(**view: object) -> bytes:
+    """The swaying strip, each of its channels with times of its own, and behind them an image."""
+    model = swaying(601)
+    model.json["images"] = [{"bufferView": model.view(b"\x89PNG not really", **view), "mimeType": "image/png"}]
+    return model.glb()
+
+
+def test_room_that_is_left_is_cut_out():
+    """Of times told twice one is enough; what lies behind them is the same, and aligned as it was."""
+    data = with_an_image()
+    document = cut_at(opened(data), CUTS)
+    glb = clips_of(data, document)
+    (before, old), (after, new) = chunks_of(data), chunks_of(glb)
+    assert len(new) <= len(old) - 4 * 601 + 8 * len(CUTS) + 16
+    assert worst_miss(opened(data), glb, document) <= CLOSE
+    places = [root["bufferViews"][root["images"][0]["bufferView"]] for root in (before, after)]
+    assert new[places[1]["byteOffset"] :][: places[1]["byteLength"]] == b"\x89PNG not really"
+    assert (places[0]["byteOffset"] - places[1]["byteOffset"]) % 8 == 0
+    assert places[1]["byteOffset"] < places[0]["byteOffset"]
+
+
+def test_nothing_moves_where_an_extension_may_say_where_it_lies():
+    """What is not known here may count bytes of the file."""
+    data = with_an_image(extensions={"EXT_unknown": {"from": 12}})
+    root, _ = chunks_of(clips_of(data, cut_at(opened(data), CUTS)))
+    number = root["images"][0]["bufferView"]
+    assert root["bufferViews"][number] == chunks_of(data)[0]["bufferViews"][number]
