@@ -2,6 +2,7 @@
 
 import os
 import resource
+import shutil
 import signal
 import socket
 import time
@@ -63,3 +64,22 @@ def test_an_upload_that_a_kill_cuts_short_is_gone_at_the_next_start(checkout, id
     assert killed.spooled()
     with serve(checkout, tmp_path, idle.redis_url, workers=False) as other:
         assert not other.spooled()
+
+
+def test_a_disk_that_is_nearly_full_takes_no_more_work(checkout, idle, tmp_path, take):
+    """Below CAESURA_MIN_FREE_BYTES: 503 with Retry-After before the file is read, not ready; what is there is read."""
+    kept = idle.http.post("/v1/segmentations", content=take(903)).json()["id"]
+    more_than_there_is = shutil.disk_usage(tmp_path).total + 1
+    settings = {"ready": False, "min_free_bytes": more_than_there_is}
+    with serve(checkout, tmp_path, idle.redis_url, workers=False, **settings) as other:
+        for call in ("/v1/animations", "/v1/segmentations"):
+            refused = other.http.post(call, content=take(904))
+            assert (refused.status_code, refused.json()["code"]) == (503, "not-ready"), call
+            assert int(refused.headers["Retry-After"]) >= 1
+            assert "disk" in refused.json()["detail"]
+        assert not other.spooled()
+        ready = other.http.get("/readyz")
+        assert (ready.status_code, ready.json()["code"]) == (503, "not-ready")
+        assert int(ready.headers["Retry-After"]) >= 1
+        assert other.http.get(f"/v1/segmentations/{kept}").json()["status"] == "queued"
+        assert other.http.delete(f"/v1/segmentations/{kept}").status_code == 200
