@@ -41,7 +41,7 @@ def sniff(head: bytes) -> Format:
         return "gltf"
     if text.startswith(b"HIERARCHY"):
         return "bvh"
-    raise UnsupportedMedia("unsupported-media-type", f"The file is {_described(head, text)}. Read here are {READ}.")
+    raise UnsupportedMedia("unsupported-media-type", f"The file is {_described(head, text)}. Caesura reads {READ}.")
 
 
 def _begins_with_a_file(head: bytes) -> bool:

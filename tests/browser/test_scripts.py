@@ -1,6 +1,7 @@
 """The page's own arithmetic, run by Node."""
 
 import json
+import re
 import subprocess
 from pathlib import Path
 from typing import Any
@@ -37,6 +38,16 @@ def test_a_thinned_curve_keeps_its_peaks_and_its_order(answer) -> None:
     assert frames == sorted(frames)
     assert frames[values.index(9)] == 41234
     assert values[0] is None
+
+
+def test_every_stage_has_words(answer, checkout: Path) -> None:
+    """What the worker and the method tell of themselves, and nothing that they never tell, is put to a person."""
+    known = answer("import { STAGES } from 'VIEWER/stages.js'; console.log(JSON.stringify(Object.keys(STAGES)));")
+    sources = [
+        path.read_text(encoding="utf-8") for part in ("core", "worker") for path in checkout.glob(f"{part}/**/*.py")
+    ]
+    told = {name for text in sources for name in re.findall(r'\b(?:progress\(|stage=)"([\w -]+)"', text)}
+    assert told | {"upload", "queued"} == {*known}
 
 
 def test_a_short_curve_is_drawn_as_it_is(answer) -> None:

@@ -1,6 +1,6 @@
 // A glTF plays as itself: the plain copy's one animation, skinned and morphed by the GPU.
 
-import { AnimationMixer, Box3, BufferAttribute, DoubleSide, LoopRepeat, MeshLambertMaterial, Vector3 } from 'three';
+import { AnimationMixer, Box3, BufferAttribute, DoubleSide, LoopRepeat, MeshLambertMaterial, Object3D, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { bones } from './bones.js';
 import { inOrder } from './locality.js';
@@ -57,7 +57,7 @@ class GltfFigure {
     const skinning = new Skinning(mesh);
     const { index, attributes } = mesh.geometry;
     this.#skinnings.push(skinning);
-    this.painted.push(new Painted(skinning.positions, skinning.normals, index.array, attributes._patch.array, strain));
+    this.painted.push(new Painted(skinning.positions, skinning.normals, index.array, attributes._patch.array, strain, new Object3D()));
     mesh.visible = false;
   }
 
@@ -94,7 +94,6 @@ class GltfFigure {
 
   dispose() {
     this.#mixer?.stopAllAction();
-    for (const painted of this.painted) painted.dispose();
     this.object.traverse((node) => { node.geometry?.dispose(); node.material?.dispose(); node.skeleton?.dispose(); });
   }
 }

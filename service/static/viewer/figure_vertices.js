@@ -1,6 +1,6 @@
 // A vertex sequence plays from blocks of int16 positions; the surface is lit by normals made here, frame by frame.
 
-import { Box3, BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshLambertMaterial, Vector3 } from 'three';
+import { Box3, BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshLambertMaterial, Object3D, Vector3 } from 'three';
 import { BlockFile } from './blocks.js';
 import { inOrder } from './locality.js';
 import { Painted } from './painted.js';
@@ -28,8 +28,9 @@ class VerticesFigure {
     this.#positions = new BufferAttribute(new Int16Array(vertices * 3), 3, true);
     this.#normals = new BufferAttribute(new Int8Array(vertices * 3), 3, true);
     this.#sums = new Float32Array(vertices * 3);
-    this.painted = drawnBySoftware() ? [new Painted(this.#positions, this.#sums, triangles, patches, strain)] : [];
-    const mesh = this.painted[0]?.mesh || this.#lit(triangles, patches, strain);
+    const software = drawnBySoftware();
+    const mesh = software ? new Object3D() : this.#lit(triangles, patches, strain);
+    this.painted = software ? [new Painted(this.#positions, this.#sums, triangles, patches, strain, mesh)] : [];
     mesh.scale.setScalar(half);
     mesh.position.fromArray(centre);
     this.mesh = mesh;
@@ -112,7 +113,7 @@ class VerticesFigure {
   }
 
   dispose() {
-    this.mesh.geometry.dispose();
-    this.mesh.material.dispose();
+    this.mesh.geometry?.dispose();
+    this.mesh.material?.dispose();
   }
 }

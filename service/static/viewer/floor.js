@@ -3,9 +3,11 @@
 
 import { BufferAttribute, BufferGeometry, Color, Group, LineSegments, Mesh, PlaneGeometry, ShaderMaterial, Vector2 } from 'three';
 
-const CELLS = 30; // on either side of the middle
-const PIECES = 15; // a line is cut into so many on either side, for it fades along its length
+const REACH = 25; // cells from the middle to where nothing is left of the strong lines
+const NEAR = 0.55; // of that, of the others
 const COARSE = 5; // every fifth line is stronger, and seen further
+const PIECE = 4; // cells: a line is cut into such, for it fades along its length
+const SLACK = (COARSE / 2) * Math.SQRT2; // cells: the lines lag so far behind the middle
 const BLOB = 1.2; // bodies' widths from the middle of the shade to where nothing of it is left
 
 const LINES = {
@@ -16,7 +18,7 @@ uniform vec2 middle;
 varying float vAlpha;
 void main() {
   vec4 world = modelMatrix * vec4(position, 1.0);
-  vAlpha = strength * (1.0 - smoothstep(0.1, strength > 0.5 ? 1.0 : 0.55, length(world.xz - middle) / reach));
+  vAlpha = strength * (1.0 - smoothstep(0.1, strength > 0.5 ? 1.0 : ${NEAR}, length(world.xz - middle) / reach));
   gl_Position = projectionMatrix * viewMatrix * world;
 }`,
   fragmentShader: `
@@ -63,7 +65,7 @@ export class Floor {
     const power = 10 ** Math.floor(Math.log10(size / 4));
     const steps = [5, 2, 1].map((n) => n * power);
     this.#cell = steps.find((step) => step <= size / 4) || power;
-    this.uniforms.reach.value = Math.min(size * 7, this.#cell * (CELLS - COARSE));
+    this.uniforms.reach.value = this.#cell * REACH;
     this.#lines.scale.setScalar(this.#cell);
     this.#shade.scale.setScalar(2 * BLOB * Math.max(width * 0.75, size * 0.15));
     this.object.position.y = y;
@@ -83,16 +85,19 @@ export class Floor {
   }
 }
 
-/** Lines both ways, a cell of 1 apart, in pieces. */
+/** Lines both ways, a cell of 1 apart, as far as they can be seen, in pieces. */
 function grid() {
   const places = [];
   const strengths = [];
-  const piece = CELLS / PIECES;
-  for (let at = -CELLS; at <= CELLS; at++) {
-    const strength = at % COARSE ? 0.35 : 0.7;
-    for (let from = -CELLS; from < CELLS; from += piece) {
-      places.push(at, 0, from, at, 0, from + piece, from, 0, at, from + piece, 0, at);
-      strengths.push(strength, strength, strength, strength);
+  const farthest = Math.floor(REACH + SLACK);
+  for (let at = -farthest; at <= farthest; at++) {
+    const strong = at % COARSE === 0;
+    const half = Math.sqrt((REACH * (strong ? 1 : NEAR) + SLACK) ** 2 - at * at) || 0; // of the chord in the circle that is seen
+    const pieces = Math.ceil((2 * half) / PIECE);
+    for (let piece = 0; piece < pieces; piece++) {
+      const [from, to] = [piece, piece + 1].map((end) => half * (2 * end / pieces - 1));
+      places.push(at, 0, from, at, 0, to, from, 0, at, to, 0, at);
+      strengths.push(...Array(4).fill(strong ? 0.7 : 0.35));
     }
   }
   const geometry = new BufferGeometry();

@@ -1,7 +1,7 @@
 // The wait: every stage as it comes, ticked when it is over.
 
 import { $, make } from './dom.js';
-import { stageInWords } from './waiting.js';
+import { stageInWords } from './stages.js';
 
 let stages = [];
 

@@ -31,7 +31,7 @@ export class Skinning {
     const [positions, normals] = [this.positions.array, this.normals];
     for (let i = 0, j = 0; i < p.length; i += 3, j += 4) {
       let px = 0, py = 0, pz = 0, nx = 0, ny = 0, nz = 0;
-      const [x, y, z, u, v, w] = [p[i], p[i + 1], p[i + 2], n[i], n[i + 1], n[i + 2]];
+      const x = p[i], y = p[i + 1], z = p[i + 2], u = n[i], v = n[i + 1], w = n[i + 2];
       for (let k = j; k < j + 4; k++) {
         const weight = weights[k];
         if (!weight) continue;
@@ -46,7 +46,6 @@ export class Skinning {
       positions[i] = px; positions[i + 1] = py; positions[i + 2] = pz;
       normals[i] = nx; normals[i + 1] = ny; normals[i + 2] = nz;
     }
-    this.positions.needsUpdate = true;
   }
 
   /** Every bone's way from the bind pose to where it is in the world. */

@@ -7,11 +7,12 @@ import { askGltf, gltfFigure } from './figure_gltf.js';
 import { askVertices, verticesFigure } from './figure_vertices.js';
 import { Floor } from './floor.js';
 import { Light } from './light.js';
+import { Painting } from './painting.js';
 import { rendererOn } from './renderer.js';
 import { Strain } from './strain.js';
 
 export class Stage {
-  #renderer; #scene = new Scene(); #eye; #floor = new Floor(); #light = new Light(); #asked = false;
+  #renderer; #scene = new Scene(); #eye; #floor = new Floor(); #light = new Light(); #painting = new Painting(); #asked = false;
   #middle = new Vector3(); #moments = []; #size = { width: 1, height: 1 };
 
   constructor(canvas) {
@@ -20,7 +21,7 @@ export class Stage {
     this.strain = new Strain();
     this.#renderer = rendererOn(canvas);
     this.#eye = new Eye(canvas, () => this.draw());
-    this.#scene.add(this.#light.object, this.#eye.camera, this.#floor.object);
+    this.#scene.add(this.#light.object, this.#eye.camera, this.#floor.object, this.#painting.object);
     onResize(canvas.parentElement, () => this.#fit());
     onTheme(() => this.#theme());
     this.#theme();
@@ -47,13 +48,13 @@ export class Stage {
     this.clear();
     this.strain = strain;
     this.figure = figure;
-    this.#scene.add(figure.object, ...figure.painted.map(({ mesh }) => mesh).filter((mesh) => !mesh.parent));
+    this.#scene.add(figure.object);
     this.reframe();
   }
 
   clear() {
     if (!this.figure) return;
-    this.#scene.remove(this.figure.object, ...this.figure.painted.map(({ mesh }) => mesh));
+    this.#scene.remove(this.figure.object);
     this.figure.dispose();
     this.strain.dispose();
     this.figure = null;
@@ -107,8 +108,8 @@ export class Stage {
     this.#eye.look(this.#size, share);
     this.#renderer.setScissorTest(share > 1);
     for (let place = 0; place < share; place++) {
-      this.#act(this.#moments[place], place === 0);
       this.#renderer.setViewport((place * width) / share, 0, width / share, height);
+      this.#act(this.#moments[place], place === 0);
       this.#renderer.setScissor((place * width) / share, 0, width / share, height);
       this.#renderer.render(this.#scene, this.#eye.camera);
     }
@@ -126,15 +127,8 @@ export class Stage {
     const { camera, target } = this.#eye;
     this.#floor.follow(target, this.#middle);
     this.#light.follow(camera, target);
-    this.#paint();
-  }
-
-  /** Work out here what a machine without a graphics card had better not be asked for. */
-  #paint() {
-    if (!this.figure?.painted.length) return;
-    this.#eye.camera.updateMatrixWorld();
-    const light = this.#light.parts;
-    for (const painted of this.figure.painted) painted.paint(this.#eye.camera, light);
+    // Empty where the graphics card draws the figure.
+    this.#painting.paint(this.figure?.painted || [], camera, this.#light.parts, this.#renderer);
   }
 
   #fit() {

@@ -39,18 +39,3 @@ function listen(id, onStatus, signal) {
     signal?.addEventListener('abort', () => end(reject, new DOMException('cancelled', 'AbortError')));
   });
 }
-
-const STAGES = {
-  upload: 'Sending',
-  queued: 'Waiting for a free worker',
-  read: 'Reading the file',
-  strain: 'Measuring how the surface strains',
-  features: 'Describing every frame',
-  energy: 'Joining strain over time',
-  'peak-strain': 'Looking at the key-frames',
-  cut: 'Finding the motions',
-  figure: 'Preparing the figure',
-};
-
-/** A stage in words. A stage this page has not heard of is shown under its own name. */
-export const stageInWords = (stage) => STAGES[stage] || (stage ? stage[0].toUpperCase() + stage.slice(1).replaceAll('-', ' ') : '');
