@@ -1,11 +1,13 @@
 """The HTTP server, which tells those who wait that it is about to stop, so that their answers end in order."""
 
 import socket
+import sys
 
 import uvicorn
 from fastapi import FastAPI
 
 GOODBYE_SECONDS = 3  # for answers that are under way
+PROTOCOL = "auto" if sys.platform == "win32" else "service.protocol:Protocol"  # Windows has no httptools
 
 
 def configuration(app: FastAPI, host: str = "127.0.0.1", port: int = 0) -> uvicorn.Config:
@@ -14,6 +16,8 @@ def configuration(app: FastAPI, host: str = "127.0.0.1", port: int = 0) -> uvico
         app,
         host,
         port,
+        http=PROTOCOL,
+        ws="none",
         timeout_graceful_shutdown=GOODBYE_SECONDS,
         access_log=False,  # service/request_log.py says more
         log_config=None,  # worker/logs.py says how
