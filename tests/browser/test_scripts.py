@@ -80,6 +80,29 @@ def test_zooming_keeps_the_frame_under_the_pointer_and_the_take_in_view(answer) 
     assert out == revealed == [0, 1000]
 
 
+def test_two_fingers_keep_the_frames_under_them(answer) -> None:
+    """Apart they zoom in, aside they move; one finger alone, or two on the same place, change nothing."""
+    seen = answer("""
+        import { Pinch } from 'VIEWER/pinch.js';
+        import { Span } from 'VIEWER/span.js';
+        const span = new Span(1000);
+        const pinch = new Pinch(span);
+        const seen = [];
+        const note = () => seen.push([Math.round(span.from), Math.round(span.to)]);
+        pinch.press(1, 0.4); pinch.move(1, 0.3); note();
+        pinch.press(2, 0.6); note();
+        pinch.move(1, 0.2); pinch.move(2, 0.8); note();
+        pinch.move(1, 0.1); pinch.move(2, 0.7); note();
+        pinch.move(1, 0.7); note();
+        pinch.release(1); pinch.move(2, 0.2); note();
+        console.log(JSON.stringify(seen));
+    """)
+    assert seen[:2] == [[0, 1000], [0, 1000]]
+    assert seen[2] == [200, 700]  # frames 300 and 600 at 0.2 and 0.8 of the width
+    assert seen[3] == [250, 750]
+    assert seen[4:] == [seen[3]] * 2
+
+
 def test_playing_ends_with_the_take_and_waits_for_what_is_not_there(answer) -> None:
     """The clock never leaves the take, waits for what is not loaded, and repeats a segment that is looped."""
     seen = answer("""

@@ -3,13 +3,13 @@
 import { frameOfAddress, remember, resultOfAddress, revisionOfAddress } from './address.js';
 import * as api from './api.js';
 import { controls, offerMethods } from './controls.js';
-import { $ } from './dom.js';
+import { $, announce } from './dom.js';
 import { face, refuse } from './faces.js';
 import { drawHeatKey } from './heat.js';
 import { beginProgress, progress, statusProgress } from './progress.js';
 import { showRecent } from './recent.js';
 import { Result } from './result.js';
-import { about } from './numbers.js';
+import { about, count } from './numbers.js';
 import { acceptFiles } from './upload.js';
 import { recut, openRevision } from './variants.js';
 import { finished } from './waiting.js';
@@ -84,6 +84,7 @@ function show(result, status, viewer) {
   face('result', status.name);
   $('subject').textContent = [status.name, about(result)].filter(Boolean).join(' · ');
   $('result-title').textContent = status.name;
+  announce(`${status.name}: ${count(result.motions, 'motion')} in ${count(result.segments.length, 'segment')}.`);
   shown = new Result(result, status, changed);
   shown.presence.look(document.querySelector('#looks input:checked').value);
   const frame = frameOfAddress();

@@ -16,6 +16,9 @@ export function make(tag, properties = {}, ...children) {
 /** Words for who listens, between those for who looks. */
 export const unseen = (text) => make('span', { className: 'unseen' }, text);
 
+/** Say a sentence to who listens instead of looking. */
+export const announce = (sentence) => { $('announce').textContent = sentence; };
+
 /** A colour of the style sheet, for canvases. */
 export const styled = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 

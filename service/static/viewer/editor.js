@@ -1,7 +1,7 @@
 // Editing a result: what is selected, what was done, and that it is kept. Every edit goes through `#do`.
 
 import { shownFrame } from './counting.js';
-import { $ } from './dom.js';
+import { announce } from './dom.js';
 import { History } from './history.js';
 import { Saving } from './saving.js';
 import * as edits from './segments.js';
@@ -138,6 +138,3 @@ export class Editor {
 }
 
 const sentence = (note) => note[0].toUpperCase() + note.slice(1);
-
-/** Say it to who listens instead of looking. */
-export function announce(sentence) { $('announce').textContent = sentence; }

@@ -16,11 +16,11 @@ import { Review } from './review.js';
 import { indexAt } from './segments.js';
 import { Span } from './span.js';
 import { Timeline } from './timeline.js';
-import { tracks } from './tracks.js';
+import { Tracks } from './tracks.js';
 import { goTo, loop } from './visits.js';
 
 export class Result {
-  #gone = new AbortController(); #place; #segment = -1; #list; #listener; #work = null;
+  #gone = new AbortController(); #tracks; #segment = -1; #list; #listener; #work = null;
 
   /** Lay out `document` for the first time; `status` is the service's word of it. `onChange()` hears of every edit. */
   constructor(document, status, onChange) {
@@ -34,7 +34,7 @@ export class Result {
     this.#take(document);
     this.curve = new Curve($('curve'), document, this.span, signal);
     this.timeline = new Timeline($('timeline'), document, this.span, () => this.curve.plot, signal);
-    this.#place = tracks(this, signal);
+    this.#tracks = new Tracks(this, signal);
     this.#open(document, status);
     this.clock.listen(() => (this.#hasLeftCut() ? this.editor.select(-1) : this.#moment()));
     onCounting(() => this.#recount(), signal);
@@ -97,7 +97,7 @@ export class Result {
     this.#work?.abort();
     this.#work = new AbortController();
     this.editor?.close();
-    this.editor = new Editor(this, { newest: status.revision, onChange: () => { this.review.show(); this.#place(); this.#listener(); } });
+    this.editor = new Editor(this, { newest: status.revision, onChange: () => { this.review.show(); this.#tracks.place(); this.#listener(); } });
     this.review = new Review(document.id, this.editor, this.clock, this.span, this.#work.signal);
     tellTake(document);
     tellCounts(document);
@@ -142,7 +142,7 @@ export class Result {
     const index = this.indexAt(clock.frame);
     if (clock.playing) this.span.follow(clock.frame);
     if (!clock.loop && !clock.until && $('loop').checked) loop(this, true);
-    this.#place();
+    this.#tracks.place();
     if (index !== this.#segment) this.#enter(index);
     tellMoment(this, this.document.segments[index], this.#pair);
     this.presence.show();
