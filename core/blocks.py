@@ -16,7 +16,8 @@ from core.progress import Progress, ignore
 BLOCK_BYTES = 192 * 2**20
 BLOCKS_BYTES = 4 * BLOCK_BYTES
 """Memory for the blocks of all threads together."""
-MOST_FRAMES = 64
+SMALL_BLOCK_BYTES = 4 * 2**20
+WIDTH, MOST_FRAMES = 64, 512
 HEARTBEAT_SECONDS = 0.2
 
 Item = TypeVar("Item")
@@ -27,9 +28,14 @@ Block = tuple[int, int]
 
 
 def frames_per_block(vertex_count: int) -> int:
-    """8 to 64 frames, so that one block of float32 vertices stays near `BLOCK_BYTES`."""
-    fitting = BLOCK_BYTES // max(12 * vertex_count, 1)
-    return int(min(max(fitting // 8 * 8, 8), MOST_FRAMES))
+    """8 to 512 frames: as many as `SMALL_BLOCK_BYTES` hold of float32 vertices or 64, but fewer beyond `BLOCK_BYTES`.
+
+    Of small meshes many, for what is done once a block would be a good part of the work.
+    """
+    frame = max(12 * vertex_count, 1)
+    few = max(BLOCK_BYTES // frame // 8 * 8, 8)
+    many = max(SMALL_BLOCK_BYTES // frame // WIDTH * WIDTH, WIDTH)
+    return int(min(few, many, MOST_FRAMES))
 
 
 def threads_at_once(threads: int, vertex_count: int, columns: int = 0, levels: int = 1) -> int:

@@ -11,7 +11,6 @@ from core.blocks import Block
 from core.body import NO_PATCHES, Body
 from core.buffers import Buffers
 from core.codes import CODES, Coding
-from core.descriptors.kernels import WIDTH
 from core.descriptors.patch_means import PatchMeans
 from core.descriptors.strain import TriangleStrain, UnreadableError
 from core.drawing import draw
@@ -87,7 +86,7 @@ class Surveyor:
     ) -> tuple[float, int]:
         """The largest value and how many are above noise: in one call for strain, else tile by tile."""
         surface, (patches, sums), (floor, histogram) = self.body.surface, means, counted
-        if isinstance(surface, TriangleStrain) and len(vertices) <= WIDTH:
+        if isinstance(surface, TriangleStrain):
             coding = self.coding.lowest, np.int32(floor)
             return surface.read(vertices, self.noise, coding, means, codes, histogram)
         largest, above = 0.0, 0

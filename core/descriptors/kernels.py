@@ -209,12 +209,12 @@ def add_areas(rows: Floats, corners: Indices, twice: NDArray[np.float64]) -> Non
 
 
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
-def add_weighted(tile: Floats, weights: Floats, groups: Indices, sums: Floats) -> None:
-    """sums[groups[t], f] += weights[t] tile[t, f], one column after another."""
+def add_weighted(tile: Floats, weights: Floats, groups: Indices, sums: Floats, at: int, frames: int) -> None:
+    """sums[groups[t], at + f] += weights[t] tile[t, f] for so many frames, one column after another."""
     for t in range(tile.shape[0]):
         row, weight = sums[groups[t]], weights[t]
-        for f in range(row.size):
-            row[f] += weight * tile[t, f]
+        for f in range(frames):
+            row[at + f] += weight * tile[t, f]
 
 
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")

@@ -34,4 +34,4 @@ class PatchMeans:
         means: Float32[np.ndarray, "patches frames"],
     ) -> None:
         """Add the columns of a tile to the means."""
-        kernels.add_weighted(tile, self.weight[columns], self.patch[columns], means)
+        kernels.add_weighted(tile, self.weight[columns], self.patch[columns], means, 0, tile.shape[1])

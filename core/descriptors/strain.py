@@ -137,7 +137,7 @@ class TriangleStrain:
         codes: UInt16[np.ndarray, "kept row"],
         histogram: Int[np.ndarray, "codes"],
     ) -> tuple[float, int]:
-        """At most `WIDTH` frames of `tiles` at once: adds to means and counts, and writes codes where there are rows.
+        """All `tiles` in one call: adds to means and counts, and writes codes where there are rows.
 
         `coding` is the lowest code's leading bits and the code from which on codes are counted. Returns the largest
         strain and how many are above noise. Raises `UnreadableError`.

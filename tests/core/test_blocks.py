@@ -60,9 +60,10 @@ def test_maps_may_be_chained():
 
 
 def test_blocks_tile_the_frames_and_shrink_for_large_meshes():
-    """The last is shorter; 64 frames at most, 8 at least."""
+    """The last is shorter; 512 frames at most, 8 at least."""
     assert blocks_of(10, 4) == [(0, 4), (4, 8), (8, 10)]
-    assert (frames_per_block(1000), frames_per_block(500_000), frames_per_block(10**7)) == (64, 32, 8)
+    sizes = [frames_per_block(vertices) for vertices in (0, 100, 2_000, 10_000, 500_000, 10**7)]
+    assert sizes == [512, 512, 128, 64, 32, 8]
 
 
 @pytest.mark.parametrize("vertices", [1_000, 260_000, 500_000])

@@ -43,41 +43,51 @@ def read_block(
     histogram: Sums,
     means: Floats,
 ) -> tuple[int, int]:
-    """Up to `WIDTH` frames: every tile gathered, strained, added to the means, counted and encoded.
+    """Every tile of up to `WIDTH` frames gathered, strained, added to the means, counted and encoded; then the next.
 
     Tile i has the members from `member_ends[i]` to `member_ends[i + 1]`, and the triangles likewise by `ends`. `codes`
     has no rows where none are kept, `means` none where there are no patches, and `histogram` nothing where all was
     looked at and counted before. Returns the bits of the largest strain and how many strains are above noise,
     `UNREADABLE` where a corner is no number or beyond `REACH`.
     """
-    frames, counted = vertices.shape[0], histogram.size > 0
-    largest, above, tops = 0, np.zeros(frames, np.int32), np.empty(TOGETHER, np.int32)
-    for i in range(ends.size - 1):
-        own = members[member_ends[i] : member_ends[i + 1]]
-        start, end = ends[i], ends[i + 1]
-        gathered = rows[: own.size]
-        gather(vertices, own, gathered)
-        for v in range(own.size if frames < WIDTH else 0):  # frames that are not there repeat the last
-            for axis in range(3):
-                gathered[v, axis, frames:] = gathered[v, axis, frames - 1]
-        if counted and largest_bits(gathered.reshape(-1).view(np.int32)) > _REACH_BITS:
-            return largest, UNREADABLE
-        lines = gathered.reshape((own.size, 3 * WIDTH))
-        later = members[member_ends[i + 1] : member_ends[min(i + 2, ends.size - 1)]]
-        for first in range(start, end, TOGETHER):
-            last = min(first + TOGETHER, end)
-            soon = (first - start) * WIDTH // (end - start)
-            fetch(vertices, later, soon, (last - start) * WIDTH // (end - start))
-            strain = tile[: last - first]
-            strain_tile(lines, corners[first:last], shapes[first:last], scale, measure, scratch, strain, tops)
-            if means.shape[0] > 0:
-                add_weighted(strain, weights[first:last], groups[first:last], means)
-            bits = strain.view(np.int32)
-            if counted:
-                for t in range(last - first):
-                    largest = max(largest, int(tops[t]))
-                count_above(bits, noise[first:last], above)
-                count_codes(bits, tops, frames, lowest, floor, histogram)
-            if codes.shape[0] > 0:
-                encode(bits, frames, lowest, codes, first)
-    return largest, int(above.sum())
+    counted, largest, above = histogram.size > 0, 0, 0
+    tops, more = np.empty(TOGETHER, np.int32), np.empty(WIDTH, np.int32)
+    for at in range(0, vertices.shape[0], WIDTH):
+        block, factors = vertices[at : at + WIDTH], scale[at : at + WIDTH]
+        kept = codes[at : at + WIDTH]
+        frames, more[:] = block.shape[0], 0
+        for i in range(ends.size - 1):
+            own, start, end = members[member_ends[i] : member_ends[i + 1]], ends[i], ends[i + 1]
+            gathered = rows[: own.size]
+            gather(block, own, gathered)
+            _repeat_last(gathered, frames)
+            if counted and largest_bits(gathered.reshape(-1).view(np.int32)) > _REACH_BITS:
+                return largest, UNREADABLE
+            lines = gathered.reshape((own.size, 3 * WIDTH))
+            later = members[member_ends[i + 1] : member_ends[min(i + 2, ends.size - 1)]]
+            for first in range(start, end, TOGETHER):
+                last = min(first + TOGETHER, end)
+                fetch(block, later, (first - start) * WIDTH // (end - start), (last - start) * WIDTH // (end - start))
+                strain = tile[: last - first]
+                strain_tile(lines, corners[first:last], shapes[first:last], factors, measure, scratch, strain, tops)
+                if means.shape[0] > 0:
+                    add_weighted(strain, weights[first:last], groups[first:last], means, at, frames)
+                bits = strain.view(np.int32)
+                if counted:
+                    for t in range(last - first):
+                        largest = max(largest, int(tops[t]))
+                    count_above(bits, noise[first:last], more)
+                    count_codes(bits, tops, frames, lowest, floor, histogram)
+                if codes.shape[0] > 0:
+                    encode(bits, frames, lowest, kept, first)
+        for f in range(frames):
+            above += int(more[f])
+    return largest, above
+
+
+@njit(nogil=True, cache=True)
+def _repeat_last(rows: Floats, frames: int) -> None:
+    """Frames that are not there repeat the last."""
+    for v in range(rows.shape[0] if frames < WIDTH else 0):
+        for axis in range(3):
+            rows[v, axis, frames:] = rows[v, axis, frames - 1]
