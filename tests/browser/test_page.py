@@ -108,6 +108,18 @@ def test_another_number_of_motions_is_shown_in_place(page: Page, smooth: Path) -
     page.wait_for_url(lambda url: url.split("#")[0] != address.split("#")[0])
 
 
+def test_a_method_that_must_be_told_the_number_gets_the_one_on_screen(page: Page, smooth: Path) -> None:
+    """Whoever only chooses a method is not asked for what the page knows; back again it may be found anew."""
+    opened(page, smooth)
+    motions = page.locator("#motions").get_attribute("placeholder")
+    page.locator("#method").select_option("spectral")
+    expect(page.locator("#controls-note")).to_contain_text("Now ", timeout=60_000)
+    expect(page.locator("#motions")).to_have_value(motions or "")
+    expect(page.locator("#auto")).to_be_disabled()
+    page.locator("#method").select_option("switching")
+    expect(page.locator("#auto")).to_be_enabled()
+
+
 def test_a_result_opens_by_its_address_at_a_moment(page: Page, smooth: Path) -> None:
     """/view/{id}#frame=… shows that frame."""
     address = opened(page, smooth).split("#")[0]

@@ -7,6 +7,7 @@ import { showScores } from './scores.js';
 const DELAY = 350; // ms of quiet before a typed or stepped number is sent
 
 let choose = () => {};
+let told = new Set(); // the methods that cannot find the number of motions themselves
 let compared = { of: '', scores: [] }; // a cut into a given number has no scores: those of the same method stay
 
 /** Wire the form once. `recut(changes)` posts; `current()` is the document on screen. */
@@ -41,9 +42,12 @@ export function controls({ recut, current }) {
   field.addEventListener('change', () => {
     const motions = typed();
     if (motions === null) note('A whole number of motions, or auto.');
+    else if (motions === 'auto' && told.has(current().method)) note(`The method ${current().method} must be told a number.`);
     else send({ motions });
   });
-  $('method').addEventListener('change', (event) => send({ method: event.target.value }));
+  $('method').addEventListener('change', ({ target: { value: method } }) => {
+    send(told.has(method) && typed() === 'auto' ? { method, motions: current().motions } : { method });
+  });
   $('controls').addEventListener('submit', (event) => event.preventDefault());
 }
 
@@ -56,6 +60,7 @@ export function reflect(document) {
   $('motions').value = auto ? '' : motions;
   $('motions').placeholder = document.motions;
   $('auto').setAttribute('aria-pressed', String(auto));
+  $('auto').disabled = told.has(document.method);
   const select = $('method');
   if (![...select.options].some((option) => option.value === document.method)) select.append(option(document.method));
   select.value = document.method;
@@ -71,7 +76,9 @@ const option = (name, title = '') => make('option', { value: name, title }, name
 export async function offerMethods() {
   const answer = await api.methods().catch(() => null);
   if (!answer) return;
+  told = new Set(answer.methods.filter(({ parameters }) => parameters.required?.includes('motions')).map(({ name }) => name));
   const chosen = $('method').value;
   $('method').replaceChildren(...answer.methods.map(({ name, description }) => option(name, description)));
   if (chosen) $('method').value = chosen;
+  $('auto').disabled = told.has(chosen);
 }
