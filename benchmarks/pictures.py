@@ -47,7 +47,10 @@ class _Pictures:
         self, name: str, path: str, act: Callable[[Page], None], *, size: tuple[int, int] = WIDE, dark: bool = False
     ) -> None:
         page = self._browser.new_page(
-            viewport={"width": size[0], "height": size[1]}, color_scheme="dark" if dark else "light"
+            viewport={"width": size[0], "height": size[1]},
+            color_scheme="dark" if dark else "light",
+            has_touch=size == PHONE,
+            is_mobile=size == PHONE,
         )
         page.set_default_timeout(PATIENCE_MS)
         page.goto(self._url + path)

@@ -133,6 +133,18 @@ def test_recent_animations_are_listed_and_open(page: Page, smooth: Path) -> None
     """The first page remembers."""
     opened(page, smooth)
     page.goto("/")
+    entry = page.locator("#recent .animation", has_text="smooth.glb").first
+    expect(entry).to_contain_text(re.compile("just now|ago"))
+    entry.click()
+    expect(page.locator("#curve canvas")).to_be_visible()
+
+
+def test_an_animation_whose_segmentation_was_cancelled_is_segmented_again(page: Page, smooth: Path) -> None:
+    """What was given up, or failed with a worker, is no dead end."""
+    opened(page, smooth)
+    gone = {"segmentations": [{"id": "a" * 26, "status": "cancelled"}]}
+    page.route("**/v1/segmentations?animation=*", lambda route: route.fulfill(json=gone))
+    page.goto("/")
     page.locator("#recent .animation", has_text="smooth.glb").first.click()
     expect(page.locator("#curve canvas")).to_be_visible()
 

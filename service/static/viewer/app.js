@@ -10,6 +10,7 @@ import { beginProgress, progress, statusProgress } from './progress.js';
 import { showRecent } from './recent.js';
 import { Result } from './result.js';
 import { about, count } from './numbers.js';
+import { askGraphics } from './software.js';
 import { acceptFiles } from './upload.js';
 import { recut, openRevision } from './variants.js';
 import { finished } from './waiting.js';
@@ -50,12 +51,13 @@ async function openFiles(files) {
   } catch (problem) { refuse(problem, name); }
 }
 
-/** An animation seen before: its newest segmentation, or a first one. */
+/** An animation seen before: its newest segmentation that is there or on its way, else one more. */
 async function openAnimation({ id, name }) {
   const signal = wait(name);
   try {
     const { segmentations } = await api.segmentationsOf(id);
-    await openSegmentation(segmentations.find(({ status }) => status === 'done') || segmentations[0] || await api.segment(id), signal);
+    const being = (...states) => segmentations.find(({ status }) => states.includes(status));
+    await openSegmentation(being('done') || being('queued', 'running') || await api.segment(id), signal);
   } catch (problem) { refuse(problem, name); }
 }
 
@@ -67,6 +69,7 @@ async function openSegmentation({ id }, signal) {
 
 /** A segmentation in any state: wait until it is over, then show it. */
 async function follow(id, signal) {
+  askGraphics(); // their start takes longest, and keeps nobody waiting in a worker
   const status = await finished(id, (now) => {
     if (now.status === 'running') import('./stage.js'); // needed soon: fetched while we wait
     if (now.name) $('waiting-name').textContent = now.name;

@@ -1,6 +1,9 @@
 // Numbers as people read them.
 
 const GROUPED = new Intl.NumberFormat('en-US');
+const JUST = 45; // seconds that are still "just now"
+const STEPS = [['minute', 60], ['hour', 3600], ['day', 86400]];
+const AGO = new Intl.RelativeTimeFormat('en', { numeric: 'auto' });
 
 export const whole = (n) => GROUPED.format(n).replaceAll(',', '\u202f');
 
@@ -25,3 +28,11 @@ export const count = (n, one, many = `${one}s`) => `${whole(n)} ${n === 1 ? one 
 export const about = (document) => [
   document.source.name, count(document.frames, 'frame'), rate(document.frame_rate), duration(document.duration_seconds),
 ].filter(Boolean).join(' · ');
+
+/** How long ago a moment was, given in seconds since 1970. */
+export function ago(created) {
+  const seconds = Date.now() / 1000 - created;
+  if (seconds < JUST) return 'just now';
+  const [unit, size] = STEPS.findLast(([, length]) => seconds >= length) || STEPS[0];
+  return AGO.format(-Math.max(1, Math.round(seconds / size)), unit);
+}

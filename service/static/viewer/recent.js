@@ -2,7 +2,7 @@
 
 import * as api from './api.js';
 import { $, make } from './dom.js';
-import { count, duration } from './numbers.js';
+import { ago, count, duration } from './numbers.js';
 
 const MOST = 12;
 
@@ -17,12 +17,13 @@ export async function showRecent(open) {
       make('span', {}, facts(animation))))));
 }
 
-function facts({ format, takes = [], triangles }) {
+function facts({ format, takes = [], triangles, created }) {
   const longest = takes.reduce((best, take) => (take.duration_seconds > (best?.duration_seconds ?? -1) ? take : best), null);
   return [
     format && format.toUpperCase(),
     longest && duration(longest.duration_seconds),
     takes.length > 1 && count(takes.length, 'take'),
     triangles ? count(triangles, 'triangle') : null,
+    created && ago(created),
   ].filter(Boolean).join(' · ');
 }

@@ -2,11 +2,8 @@
 
 import * as api from './api.js';
 import { $, make } from './dom.js';
+import { ago } from './numbers.js';
 import { roving, stop } from './roving.js';
-
-const JUST = 45; // seconds that are still "just now"
-const STEPS = [['minute', 60], ['hour', 3600], ['day', 86400]];
-const AGO = new Intl.RelativeTimeFormat('en', { numeric: 'auto' });
 
 let asked = 0;
 
@@ -30,10 +27,3 @@ export async function showRevisions(id, shown, open) {
 
 /** Wire the list once. */
 export const revisionList = () => roving($('revisions'), 'button');
-
-function ago(created) {
-  const seconds = Date.now() / 1000 - created;
-  if (seconds < JUST) return 'just now';
-  const [unit, size] = STEPS.findLast(([, length]) => seconds >= length) || STEPS[0];
-  return AGO.format(-Math.max(1, Math.round(seconds / size)), unit);
-}
