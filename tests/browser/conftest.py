@@ -1,10 +1,12 @@
 """A real service and a real browser: nothing of the page is tested any other way."""
 
+import json
 import os
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
@@ -94,3 +96,21 @@ def own(smooth: Path, tmp_path_factory: pytest.TempPathFactory, request: pytest.
     called = request.module.__name__.rpartition("_")[2][:4].encode()
     path.write_bytes(smooth.read_bytes().replace(b'"take"', b'"%s"' % called, 1))
     return path
+
+
+@pytest.fixture
+def answer(node: Path, checkout: Path) -> Callable[[str], Any]:
+    """Run a script that may import the page's modules; answers the JSON it prints."""
+    viewer = checkout / "service" / "static" / "viewer"
+
+    def run(script: str) -> Any:
+        done = subprocess.run(
+            [node, "--input-type=module", "--disable-warning=MODULE_TYPELESS_PACKAGE_JSON"],
+            input=script.replace("VIEWER", viewer.as_uri()),
+            text=True,
+            capture_output=True,
+            check=True,
+        )
+        return json.loads(done.stdout)
+
+    return run

@@ -1,6 +1,5 @@
 """What a person does with the page, done in a browser."""
 
-import io
 import re
 from pathlib import Path
 
@@ -8,8 +7,6 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
-from core.formats.header import read_header
-from core.limits import Limits
 from tests.browser.journeys import opened
 
 pytestmark = pytest.mark.timeout(240)
@@ -99,76 +96,6 @@ def test_a_segment_is_one_click_away(result: Page) -> None:
     expect(row).to_have_attribute("aria-current", "true")
 
 
-def test_another_number_of_motions_is_shown_in_place(page: Page, smooth: Path) -> None:
-    """Asking for two motions cuts again and shows two, without another look at the figure."""
-    address = opened(page, smooth)
-    page.locator("#motions").fill("2")
-    page.locator("#motions").press("Enter")
-    expect(page.locator("#summary")).to_contain_text("2 motions", timeout=30_000)
-    page.wait_for_url(lambda url: url.split("#")[0] != address.split("#")[0])
-
-
-def test_a_method_that_must_be_told_the_number_gets_the_one_on_screen(page: Page, smooth: Path) -> None:
-    """Whoever only chooses a method is not asked for what the page knows; back again it may be found anew."""
-    opened(page, smooth)
-    motions = page.locator("#motions").get_attribute("placeholder")
-    page.locator("#method").select_option("spectral")
-    expect(page.locator("#controls-note")).to_contain_text("Now ", timeout=60_000)
-    expect(page.locator("#motions")).to_have_value(motions or "")
-    expect(page.locator("#auto")).to_be_disabled()
-    page.locator("#method").select_option("switching")
-    expect(page.locator("#auto")).to_be_enabled()
-
-
-def test_a_result_opens_by_its_address_at_a_moment(page: Page, smooth: Path) -> None:
-    """/view/{id}#frame=… shows that frame."""
-    address = opened(page, smooth).split("#")[0]
-    page.goto("/")
-    page.goto(f"{address}#frame=321")
-    expect(page.locator("#frame")).to_have_value("321")
-    expect(page.locator("#timeline")).to_have_attribute("aria-valuenow", "321")
-
-
-def test_recent_animations_are_listed_and_open(page: Page, smooth: Path) -> None:
-    """The first page remembers."""
-    opened(page, smooth)
-    page.goto("/")
-    entry = page.locator("#recent .animation", has_text="smooth.glb").first
-    expect(entry).to_contain_text(re.compile("just now|ago"))
-    entry.click()
-    expect(page.locator("#curve canvas")).to_be_visible()
-
-
-def test_an_animation_whose_segmentation_was_cancelled_is_segmented_again(page: Page, smooth: Path) -> None:
-    """What was given up, or failed with a worker, is no dead end."""
-    opened(page, smooth)
-    gone = {"segmentations": [{"id": "a" * 26, "status": "cancelled"}]}
-    page.route("**/v1/segmentations?animation=*", lambda route: route.fulfill(json=gone))
-    page.goto("/")
-    page.locator("#recent .animation", has_text="smooth.glb").first.click()
-    expect(page.locator("#curve canvas")).to_be_visible()
-
-
-def test_a_hostile_file_is_refused_in_a_sentence(page: Page, tmp_path: Path) -> None:
-    """What is wrong is said to a person, and there is a way on."""
-    file = tmp_path / "page.glb"
-    file.write_text("<!doctype html><title>Not found</title>")
-    page.goto("/")
-    page.locator("#drop input").set_input_files(file)
-    expect(page.locator("#refused-detail")).to_be_visible()
-    sentence = page.locator("#refused-detail").inner_text()
-    assert len(sentence) > 20
-    assert sentence.rstrip().endswith(".")
-    assert "Traceback" not in sentence
-    expect(page.get_by_role("link", name="Open another file")).to_be_visible()
-
-
-def test_an_address_of_nothing_says_so(page: Page) -> None:
-    """A link that has expired is not a blank page."""
-    page.goto("/view/aaaaaaaaaaaaaaaaaaaaaaaaaa")
-    expect(page.locator("#refused-detail")).to_be_visible()
-
-
 def test_a_vertex_sequence_plays_from_its_blocks(page: Page, tmp_path: Path) -> None:
     """An NPZ of vertices is drawn, and its last block is reached by Range."""
     n, frames = 24, 150
@@ -189,16 +116,3 @@ def test_a_vertex_sequence_plays_from_its_blocks(page: Page, tmp_path: Path) -> 
     expect(page.locator("#frame")).to_have_value(str(frames - 1))
     page.wait_for_timeout(500)
     assert np.abs(figure_pixels(page) - first).max() > 30
-
-
-def test_the_file_comes_back_in_clips(page: Page, smooth: Path, tmp_path: Path) -> None:
-    """One click waits until the clips are written and saves a GLB with one named animation for each segment."""
-    opened(page, smooth)
-    segments = page.locator("#segments li").count()
-    with page.expect_download(timeout=60_000) as saving:
-        page.locator("#clips").click()
-    file = tmp_path / "clips.glb"
-    saving.value.save_as(file)
-    names = [take.name for take in read_header(io.BytesIO(file.read_bytes()), file.name, Limits()).takes]
-    assert len(names) == len(set(names)) == segments
-    assert "A_01" in names
