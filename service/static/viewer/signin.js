@@ -16,8 +16,8 @@ function ask() {
   const problem = make('p', { className: 'problem', role: 'alert', hidden: true });
   const form = make('form', { method: 'dialog' },
     make('h2', { id: 'sign-in' }, 'This service wants a key'),
-    make('p', {}, 'Whoever keeps the service makes one for you.'),
-    make('p', {}, make('label', { htmlFor: 'key' }, 'Key '), key, ' ', make('button', { type: 'submit' }, 'Sign in')),
+    make('p', { className: 'faint' }, 'Whoever keeps the service makes one for you.'),
+    make('p', { className: 'ask' }, make('label', { htmlFor: 'key' }, 'Key'), key, make('button', { type: 'submit', className: 'primary' }, 'Sign in')),
     problem);
   const dialog = make('dialog', { 'aria-labelledby': 'sign-in' }, form);
   dialog.addEventListener('cancel', (event) => event.preventDefault()); // nothing behind it can be used without
