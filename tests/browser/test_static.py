@@ -23,6 +23,20 @@ def test_every_module_the_page_preloads_is_there_and_the_rest_is_imported_somewh
     assert imported | {"app.js"} == set(sources)
 
 
+def test_all_modules_of_the_3d_view_are_asked_for_at_once(static: Path) -> None:
+    """What `stage.js` imports, near and far, is preloaded with the page or listed in `parts.js`."""
+    viewer = static / "viewer"
+    needed, waiting = {"stage"}, ["stage"]
+    while waiting:
+        text = (viewer / f"{waiting.pop()}.js").read_text(encoding="utf-8")
+        found = set(re.findall(r"from '\./(\w+)\.js'", text)) - needed
+        needed |= found
+        waiting += found
+    listed = set(re.findall(r"'(\w+)'", (viewer / "parts.js").read_text(encoding="utf-8").split("THREE")[0]))
+    preloaded = set(re.findall(r"viewer/(\w+)\.js", (static / "index.html").read_text(encoding="utf-8")))
+    assert listed - {"modulepreload"} == needed - preloaded
+
+
 def test_the_page_asks_nobody_else(static: Path) -> None:
     """Nothing of our own names another host: the page works without the Internet."""
     for path in [static / "index.html", *(static / "style").glob("*.css"), *(static / "viewer").glob("*.js")]:

@@ -10,7 +10,6 @@ import { beginProgress, progress, statusProgress } from './progress.js';
 import { showRecent } from './recent.js';
 import { Result } from './result.js';
 import { about, count } from './numbers.js';
-import { askGraphics } from './software.js';
 import { acceptFiles } from './upload.js';
 import { recut, openRevision } from './variants.js';
 import { finished } from './waiting.js';
@@ -48,17 +47,18 @@ async function openFiles(files) {
     progress('upload', 0);
     const animation = await api.upload(files, (share) => progress('upload', share), signal);
     await openSegmentation(await api.segment(animation.id), signal);
-  } catch (problem) { refuse(problem, name); }
+  } catch (problem) { refuse(problem, name, () => openFiles(files)); }
 }
 
 /** An animation seen before: its newest segmentation that is there or on its way, else one more. */
-async function openAnimation({ id, name }) {
+async function openAnimation(animation) {
+  const { id, name } = animation;
   const signal = wait(name);
   try {
     const { segmentations } = await api.segmentationsOf(id);
     const being = (...states) => segmentations.find(({ status }) => states.includes(status));
     await openSegmentation(being('done') || being('queued', 'running') || await api.segment(id), signal);
-  } catch (problem) { refuse(problem, name); }
+  } catch (problem) { refuse(problem, name, () => openAnimation(animation)); }
 }
 
 async function openSegmentation({ id }, signal) {
@@ -69,7 +69,6 @@ async function openSegmentation({ id }, signal) {
 
 /** A segmentation in any state: wait until it is over, then show it. */
 async function follow(id, signal) {
-  askGraphics(); // their start takes longest, and keeps nobody waiting in a worker
   const status = await finished(id, (now) => {
     if (now.status === 'running') import('./stage.js'); // needed soon: fetched while we wait
     if (now.name) $('waiting-name').textContent = now.name;
@@ -111,7 +110,7 @@ async function route() {
   if (!(await leave())) return history.pushState(null, '', `/view/${shown.document.id}#frame=${shown.clock.frame}`);
   if (!id) return start();
   const signal = wait('');
-  try { await follow(id, signal); } catch (problem) { refuse(problem); }
+  try { await follow(id, signal); } catch (problem) { refuse(problem, '', route); }
 }
 
 function start() {

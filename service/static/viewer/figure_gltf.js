@@ -8,11 +8,9 @@ import { Painted } from './painted.js';
 import { drawnBySoftware } from './software.js';
 import { Skinning } from './skinning.js';
 
-/** Ask for the file; what comes is for `gltfFigure`. */
-export const askGltf = (viewer, onProgress) =>
-  new GLTFLoader().loadAsync(viewer.model, (event) => event.total && onProgress(event.loaded / event.total));
-
-export const gltfFigure = (viewer, gltf, strain) => new GltfFigure(gltf, viewer, strain);
+/** The figure of a glTF's bytes. */
+export const gltfFigure = async (viewer, bytes, strain) =>
+  new GltfFigure(await new GLTFLoader().parseAsync(bytes, ''), viewer, strain);
 
 class GltfFigure {
   #mixer; #action; #clip; #viewer; #points = []; #bones = null; #skinnings = []; #at = new Vector3();

@@ -1,20 +1,13 @@
 // A vertex sequence plays from blocks of int16 positions; the surface is lit by normals made here, frame by frame.
 
 import { Box3, BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshLambertMaterial, Object3D, Vector3 } from 'three';
-import { BlockFile } from './blocks.js';
 import { inOrder } from './locality.js';
 import { Painted } from './painted.js';
 import { drawnBySoftware } from './software.js';
 
 const LARGEST = 32767;
 
-/** Ask for the file and what is wanted of it first; what comes is for `verticesFigure`. */
-export async function askVertices(viewer) {
-  const file = await BlockFile.open(viewer.model, 'int16');
-  const [triangles, patches] = await Promise.all([file.array('triangles'), file.array('patches'), file.fetch(0)]);
-  return { file, triangles, patches };
-}
-
+/** The figure of a sequence's parts. */
 export const verticesFigure = (viewer, { file, triangles, patches }, strain) =>
   new VerticesFigure(file, inOrder(triangles), patches, strain);
 

@@ -6,12 +6,7 @@ export const HEAT = ['#d5d2ca', '#f0c15a', '#e8712e', '#ae1f57', '#43106b'];
 /** Colour moves with strain to this power: most of a body is strained a little, and a little should be seen. */
 export const BEND = 0.7;
 
-/** The key to the heat colours. */
+/** The key to the heat colours. A gradient of the style: the first canvas of a page has it wait for the graphics. */
 export function drawHeatKey() {
-  const canvas = document.querySelector('#heat canvas');
-  const context = canvas.getContext('2d');
-  const ramp = context.createLinearGradient(0, 0, canvas.width, 0);
-  HEAT.forEach((colour, i) => ramp.addColorStop(i / (HEAT.length - 1), colour));
-  context.fillStyle = ramp;
-  context.fillRect(0, 0, canvas.width, 1);
+  document.querySelector('#heat i').style.background = `linear-gradient(to right, ${HEAT.join(', ')})`;
 }

@@ -1,8 +1,10 @@
 // The figure on stage, at the moment: it is fetched, posed, coloured, and waited for where a part is still on its way.
 
 import * as api from './api.js';
+import { askFigure } from './coming.js';
 import { $, painted } from './dom.js';
 import { colourOf } from './palette.js';
+import { fetchParts } from './parts.js';
 import { askGraphics } from './software.js';
 
 const LATE = 250; // ms after which a wait for blocks is said
@@ -31,10 +33,10 @@ export class Presence {
       this.tell('Loading the figure …');
       await painted(); // all else is to be seen before the drawing of the figure keeps the page busy
       const graphics = askGraphics(); // takes long, and beside all else
-      const [viewer, { Stage }] = await Promise.all([asked, import('./stage.js')]);
+      const arriving = asked.then((viewer) => askFigure(viewer, this.#signal, (share) => this.#arriving(share)));
+      if (!stage) fetchParts();
+      const [viewer, coming, { Stage }] = await Promise.all([asked, arriving, import('./stage.js'), graphics]);
       if (this.#signal.aborted) return;
-      const coming = Stage.ask(viewer, (share) => this.tell(`Loading the figure … ${Math.round(100 * share)} %`));
-      await graphics;
       stage ||= new Stage($('figure'));
       await stage.show(viewer, coming, this.#signal);
       if (this.#signal.aborted) return;
@@ -81,6 +83,12 @@ export class Presence {
   tell(sentence) {
     $('stage-note').textContent = sentence;
     $('stage-note').hidden = !sentence;
+  }
+
+  /** Say how much is here, as often as that is another number. */
+  #arriving(share) {
+    const sentence = `Loading the figure … ${Math.round(100 * share)} %`;
+    if ($('stage-note').textContent !== sentence) this.tell(sentence);
   }
 
   #arrived() {

@@ -3,16 +3,17 @@
 import { Scene, Vector3 } from 'three';
 import { onResize, onTheme, styled } from './dom.js';
 import { Eye } from './eye.js';
-import { askGltf, gltfFigure } from './figure_gltf.js';
-import { askVertices, verticesFigure } from './figure_vertices.js';
+import { gltfFigure } from './figure_gltf.js';
+import { verticesFigure } from './figure_vertices.js';
 import { Floor } from './floor.js';
 import { Light } from './light.js';
 import { Painting } from './painting.js';
 import { rendererOn } from './renderer.js';
+import { drawnBySoftware } from './software.js';
 import { Strain } from './strain.js';
 
 export class Stage {
-  #renderer; #scene = new Scene(); #eye; #floor = new Floor(); #light = new Light(); #painting = new Painting(); #asked = false;
+  #renderer; #scene = new Scene(); #eye; #floor = new Floor(); #light = new Light(); #painting = drawnBySoftware() ? new Painting() : null; #asked = false;
   #middle = new Vector3(); #moments = []; #size = { width: 1, height: 1 };
 
   constructor(canvas) {
@@ -21,29 +22,23 @@ export class Stage {
     this.strain = new Strain();
     this.#renderer = rendererOn(canvas);
     this.#eye = new Eye(canvas, () => this.draw());
-    this.#scene.add(this.#light.object, this.#eye.camera, this.#floor.object, this.#painting.object);
+    this.#scene.add(this.#light.object, this.#eye.camera, this.#floor.object);
+    if (this.#painting) this.#scene.add(this.#painting.object);
     onResize(canvas.parentElement, () => this.#fit());
     onTheme(() => this.#theme());
     this.#theme();
     this.#fit();
+    this.#renderer.compile(this.#scene, this.#eye.camera); // while the figure is on its way
   }
 
   /** Whether the camera goes along with the body. */
   set following(on) { this.#eye.following = on; }
 
-  /** Begin to load what the service's viewer document names: before there is a stage, which takes long to make. */
-  static ask(viewer, onProgress = () => {}) {
-    const coming = (viewer.kind === 'gltf' ? askGltf : askVertices)(viewer, onProgress);
-    coming.catch(() => {}); // said by who waits for it
-    return coming;
-  }
-
-  /** Show what was asked for by `ask`, in place of what was there. */
+  /** Show what the service's viewer document names, `coming` as `askFigure` answers it, in place of what was there. */
   async show(viewer, coming, signal) {
-    const strain = new Strain();
-    const colours = viewer.strain ? strain.open(viewer.strain).catch(() => {}) : null; // the figure is worth more than its colours
-    const figure = (viewer.kind === 'gltf' ? gltfFigure : verticesFigure)(viewer, await coming, strain);
-    await colours;
+    const [model, colours] = await Promise.all([coming.model, coming.strain]);
+    const strain = new Strain(colours);
+    const figure = await (viewer.kind === 'gltf' ? gltfFigure : verticesFigure)(viewer, model, strain);
     if (signal.aborted) return figure.dispose();
     this.clear();
     this.strain = strain;
@@ -127,8 +122,7 @@ export class Stage {
     const { camera, target } = this.#eye;
     this.#floor.follow(target, this.#middle);
     this.#light.follow(camera, target);
-    // Empty where the graphics card draws the figure.
-    this.#painting.paint(this.figure?.painted || [], camera, this.#light.parts, this.#renderer);
+    this.#painting?.paint(this.figure?.painted || [], camera, this.#light.parts, this.#renderer);
   }
 
   #fit() {

@@ -1,7 +1,6 @@
 // Strain as colour: one byte a patch and frame, looked up on the GPU, so that a frame costs a few hundred bytes.
 
 import { Color, DataTexture, NearestFilter, RedFormat, UnsignedByteType } from 'three';
-import { BlockFile } from './blocks.js';
 import { BEND, HEAT } from './heat.js';
 
 const CLAY = new Color(HEAT[0]);
@@ -28,9 +27,11 @@ vec3 heatOf(float s) {
 `;
 
 export class Strain {
-  #file = null; #shown = -1; #colours = null;
+  #file; #shown = -1; #colours = null;
 
-  constructor() {
+  /** Of a block file, or of none. */
+  constructor(file = null) {
+    this.#file = file;
     this.uniforms = {
       strainMap: { value: null },
       patches: { value: 1 },
@@ -38,15 +39,10 @@ export class Strain {
       tint: { value: CLAY.clone() },
       heated: { value: 0 },
     };
-    this.#texture(1);
+    this.#texture(file ? file.header.patches : 1);
   }
 
   get present() { return this.#file !== null; }
-
-  async open(url) {
-    this.#file = await BlockFile.open(url, 'uint8');
-    this.#texture(this.#file.header.patches);
-  }
 
   #texture(patches) {
     const map = new DataTexture(new Uint8Array(patches), patches, 1, RedFormat, UnsignedByteType);
