@@ -95,3 +95,17 @@ def test_the_file_comes_back_in_clips(page: Page, smooth: Path, tmp_path: Path) 
     names = [take.name for take in read_header(io.BytesIO(file.read_bytes()), file.name, Limits()).takes]
     assert len(names) == len(set(names)) == segments
     assert "A_01" in names
+
+
+def test_what_may_pass_is_tried_again(page: Page, smooth: Path) -> None:
+    """A network that was away costs a click, not the search for the file; what is wrong for good offers none."""
+    page.goto("/")
+    page.route("**/v1/animations?*", lambda route: route.abort())
+    page.locator("#drop input").set_input_files(smooth)
+    expect(page.locator("#refused-detail")).to_contain_text("does not answer")
+    page.unroute("**/v1/animations?*")
+    page.get_by_role("button", name="Try again").click()
+    expect(page.locator("#curve canvas")).to_be_visible(timeout=90_000)
+    page.goto("/view/aaaaaaaaaaaaaaaaaaaaaaaaaa")
+    expect(page.locator("#refused-detail")).to_be_visible()
+    expect(page.get_by_role("button", name="Try again")).to_be_hidden()
