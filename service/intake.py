@@ -27,6 +27,7 @@ def keep(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tu
     identifier = ids.animation_id(backend.secret, owner, described)
     kept = backend.jobs.records.animation(identifier)
     if kept is not None and kept.parts:
+        backend.jobs.records.touch_animation(identifier)
         return kept, False
     record = AnimationRecord(
         id=identifier,

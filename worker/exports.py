@@ -32,7 +32,8 @@ from worker.schema import ExportRecord, SegmentationRecord
 from worker.settings import WorkerSettings
 
 MOST_EXPORTS = 16
-"""Files made of one result that are kept; choices and revisions are many, and each may ask for a copy of the upload."""
+"""Files made of one result that are kept, and answers why there is none: choices and revisions are many, and each may
+ask for a copy of the upload."""
 
 GONE = {
     "kind": "request",
@@ -128,11 +129,11 @@ def run(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: st
     try:
         made = WRITERS[name](export, options)
     except CaesuraError as refused:
-        made = ExportRecord(problem=refused.problem())
+        made = ExportRecord(problem=refused.problem(), created=time.time())
     except BlobMissing:
-        made = ExportRecord(problem=GONE)
+        made = ExportRecord(problem=GONE, created=time.time())
     except Exception:
-        records.write_export(identifier, form, ExportRecord(problem=INTERNAL_ERROR))
+        records.write_export(identifier, form, ExportRecord(problem=INTERNAL_ERROR, created=time.time()))
         raise
     if not records.write_export(identifier, form, made) and made.key is not None:
         blobs.delete(made.key)

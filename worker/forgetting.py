@@ -18,11 +18,13 @@ def forget_segmentation(jobs: Jobs, blobs: Blobs, identifier: str) -> None:
 
 
 def forget_animation(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
-    """Delete an upload and everything derived from it."""
-    for segmentation in jobs.records.segmentations(animation.id):
-        forget_segmentation(jobs, blobs, segmentation.id)
-    forget_files(jobs, blobs, animation)
-    jobs.records.delete_animation(animation)
+    """Delete an upload and everything derived from it, also what is asked for while it is being deleted."""
+    while True:
+        for segmentation in jobs.records.segmentations(animation.id):
+            forget_segmentation(jobs, blobs, segmentation.id)
+        forget_files(jobs, blobs, animation)
+        if jobs.records.delete_animation(animation):
+            return
 
 
 def forget_files(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
@@ -54,8 +56,12 @@ def forget_export(records: Records, blobs: Blobs, identifier: str, form: str) ->
 
 
 def forget_oldest_exports(records: Records, blobs: Blobs, identifier: str, kept: int) -> None:
-    """Delete all but the newest so many files made of a result: each may be as large as what was uploaded."""
+    """Delete all but the newest so many files made of a result: each may be as large as what was uploaded.
+
+    So are forgotten answers that there is none, which are small but may be any number, and forms whose job was lost.
+    """
     made = {form: records.export(identifier, form) for form in records.exports(identifier)}
-    written = sorted((one.created, form) for form, one in made.items() if one is not None and one.key is not None)
-    for _, form in written[:-kept]:
+    lost = [form for form, one in made.items() if one is None]
+    over = sorted((one.created, form) for form, one in made.items() if one is not None and (one.key or one.problem))
+    for form in [*lost, *(form for _, form in over[:-kept])]:
         forget_export(records, blobs, identifier, form)

@@ -12,7 +12,6 @@ same MULTI that queues or ends it, so an attempt that comes late finds that it i
 
 import logging
 import time
-from contextlib import suppress
 from typing import Any
 
 from redis import Redis, WatchError
@@ -46,6 +45,9 @@ FIRST_PAUSE_SECONDS, PAUSE_GROWTH, LONGEST_PAUSE_SECONDS = 2.0, 4, 60.0
 def worker_problem(code: str, detail: str, **where: Any) -> dict[str, Any]:
     """A problem that is not the file's: posting the same again starts anew."""
     return {"kind": "worker", "code": code, "detail": detail, **where}
+
+
+DELETED = {"kind": "request", "code": "not-found", "detail": "The segmentation was deleted meanwhile."}
 
 
 def pause_seconds(attempt: int) -> float:
@@ -85,7 +87,7 @@ class Jobs:
         The same one queued, running, done or failed because of the file is answered as it is, without a second
         job; cancelled, or failed because of this installation, it starts anew. An animation that is analysed
         already, with the same heavy parameters, goes straight to `cut`. Raises `QueueFull` where it would be one
-        too many.
+        too many, `AnimationDeleted` where the animation has gone meanwhile.
         """
 
         def change(kept: SegmentationRecord) -> SegmentationRecord | None:
@@ -98,22 +100,25 @@ class Jobs:
 
     def cancel(self, identifier: str) -> SegmentationRecord | None:
         """queued, running -> cancelled, and stop the worker; None where it was not live."""
-        before = self.records.segmentation(identifier)
+        token = ""
 
         def change(record: SegmentationRecord) -> SegmentationRecord | None:
+            nonlocal token
+            token = record.token  # of the attempt that is cancelled: it may be a newer one than was seen before
             return record.with_(status="cancelled", token="", stage="", fraction=0.0) if record.live else None
 
         after = self.records.change(identifier, change)
-        if after is not None and before is not None:
-            self._drop(before.token)
+        if after is not None:
+            self._drop(token)
         return after
 
     def delete(self, identifier: str) -> None:
         """Cancel where it is live, then forget it and its result."""
-        self.cancel(identifier)
-        record = self.records.segmentation(identifier)
-        if record is not None:
-            self.records.delete_segmentation(record)
+        while True:
+            self.cancel(identifier)
+            record = self.records.segmentation(identifier)
+            if record is None or self.records.delete_segmentation(record):
+                return
 
     def position(self, record: SegmentationRecord) -> int | None:
         """How many jobs come before it in its queue; None where it does not wait there."""
@@ -146,18 +151,23 @@ class Jobs:
         """Have a file made of a result that is done, unless it is there or being made; see `Records.export`."""
         key = keys.export_key(identifier, form)
         with self.redis.pipeline() as pipe:
-            pipe.watch(key)
-            kept = self.records.export(identifier, form)
-            if kept is not None and (kept.problem or {}).get("kind") != "worker":
-                return kept
-            self.check_room()
-            pipe.multi()
-            pipe.set(key, ExportRecord().model_dump_json(), ex=2 * EXPORT_SECONDS)  # then its job was lost
-            pipe.sadd(keys.exports_key(identifier), form)
-            self._call("cut", "export", [identifier, form], ids.token(), EXPORT_SECONDS, pipe)
-            with suppress(WatchError):  # somebody else asked for it in this moment
-                pipe.execute()
-        return ExportRecord()
+            while True:
+                pipe.watch(key, keys.segmentation_key(identifier))
+                kept = self.records.export(identifier, form)
+                if kept is not None and (kept.problem or {}).get("kind") != "worker":
+                    return kept
+                if not pipe.exists(keys.segmentation_key(identifier)):
+                    return ExportRecord(problem=DELETED)
+                self.check_room()
+                pipe.multi()
+                pipe.set(key, ExportRecord().model_dump_json(), ex=2 * EXPORT_SECONDS)  # then its job was lost
+                pipe.sadd(keys.exports_key(identifier), form)
+                self._call("cut", "export", [identifier, form], ids.token(), EXPORT_SECONDS, pipe)
+                try:
+                    pipe.execute()
+                except WatchError:  # somebody else asked for it in this moment, or deleted it
+                    continue
+                return ExportRecord()
 
     # What workers say.
 

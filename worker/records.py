@@ -7,6 +7,7 @@ from typing import Any
 import redis
 from redis.client import Pipeline
 
+from core.errors import CaesuraError
 from worker import keys, tallies
 from worker.schema import AnalysisRecord, AnimationRecord, ExportRecord, SegmentationRecord
 
@@ -14,6 +15,12 @@ LEASE_SECONDS = 20  # an attempt whose worker gave no sign for so long is lost
 
 Change = Callable[[SegmentationRecord], SegmentationRecord | None]
 Also = Callable[[Pipeline, SegmentationRecord], None]
+
+
+class AnimationDeleted(CaesuraError):
+    """A segmentation was asked for of what is not there any more."""
+
+    kind = "request"
 
 
 def connect(url: str) -> redis.Redis:
@@ -65,13 +72,28 @@ class Records:
         """The animation, or None."""
         return AnimationRecord.read(self.redis.get(keys.animation_key(identifier)))
 
-    def delete_animation(self, record: AnimationRecord) -> None:
-        """Forget an animation; its blobs, analyses and segmentations are the caller's to delete before."""
+    def touch_animation(self, identifier: str) -> None:
+        """It is used now, and so kept from now on."""
+        self.redis.zadd(keys.USED_KEY, {identifier: time.time()}, xx=True)
+
+    def delete_animation(self, record: AnimationRecord) -> bool:
+        """Forget an animation; its blobs, analyses and segmentations are the caller's to delete before.
+
+        False, and nothing is forgotten, where it has segmentations: one was asked for in this moment.
+        """
         with self.redis.pipeline() as pipe:
+            pipe.watch(keys.segmentations_key(record.id))
+            if pipe.exists(keys.segmentations_key(record.id)):
+                return False
+            pipe.multi()
             pipe.delete(keys.animation_key(record.id))
             pipe.zrem(keys.animations_key(record.owner), record.id)
             pipe.zrem(keys.USED_KEY, record.id)
-            pipe.execute()
+            try:
+                pipe.execute()
+            except redis.WatchError:
+                return False
+            return True
 
     # Analyses.
 
@@ -135,12 +157,16 @@ class Records:
 
         `change` sees the stored record, or `new` where there is none, and may answer None: nothing happens then,
         and None is answered. It is called again where another process wrote in between, so it must be pure.
+        Raises `AnimationDeleted` where it would be `new`, and what it is of has gone meanwhile.
         """
         key = keys.segmentation_key(identifier)
         with self.redis.pipeline() as pipe:
             while True:
                 pipe.watch(key)
-                before = SegmentationRecord.read(pipe.get(key)) or new
+                stored = SegmentationRecord.read(pipe.get(key))
+                if stored is None and new is not None:
+                    _watch_animation(pipe, new.animation)
+                before = stored or new
                 after = None if before is None else change(before)
                 if after is None:
                     pipe.unwatch()
@@ -198,16 +224,26 @@ class Records:
             document, energy, labels = pipe.execute()
             return document, energy, labels
 
-    def delete_segmentation(self, record: SegmentationRecord) -> None:
-        """Forget a segmentation and its result; cancel it before."""
+    def delete_segmentation(self, record: SegmentationRecord) -> bool:
+        """Forget a segmentation and its result; False, and nothing is forgotten, where it is live again: cancel it."""
         with self.redis.pipeline() as pipe:
-            parts = [keys.segmentation_key(record.id, part) for part in ("", "document", "energy", "labels")]
-            pipe.delete(*parts, keys.revisions_key(record.id), keys.revised_key(record.id))
+            key = keys.segmentation_key(record.id)
+            pipe.watch(key)
+            kept = SegmentationRecord.read(pipe.get(key))
+            if kept is not None and kept.live:
+                return False
+            pipe.multi()
+            parts = [keys.segmentation_key(record.id, part) for part in ("document", "energy", "labels")]
+            pipe.delete(key, *parts, keys.revisions_key(record.id), keys.revised_key(record.id))
             pipe.delete(keys.alternatives_key(record.id))
             pipe.zrem(keys.segmentations_key(record.animation), record.id)
             pipe.srem(keys.LIVE_KEY, record.id)
             pipe.publish(keys.channel(record.id), b"deleted")
-            pipe.execute()
+            try:
+                pipe.execute()
+            except redis.WatchError:
+                return False
+            return True
 
     # Exports.
 
@@ -229,6 +265,7 @@ class Records:
                     return False
                 pipe.multi()
                 pipe.set(keys.export_key(segmentation, form), record.model_dump_json())
+                pipe.sadd(keys.exports_key(segmentation), form)
                 pipe.publish(keys.channel(segmentation), b"export")
                 try:
                     pipe.execute()
@@ -242,6 +279,13 @@ class Records:
         pipe.zadd(keys.segmentations_key(record.animation), {record.id: record.created})
         (pipe.sadd if record.live else pipe.srem)(keys.LIVE_KEY, record.id)
         pipe.publish(keys.channel(record.id), record.status)
+
+
+def _watch_animation(pipe: Pipeline, identifier: str) -> None:
+    """Whoever deletes it from now on spoils the MULTI: nothing is kept that nobody would delete any more."""
+    pipe.watch(keys.animation_key(identifier))
+    if not pipe.exists(keys.animation_key(identifier)):
+        raise AnimationDeleted("animation-deleted", "The animation was deleted meanwhile. Upload it again.")
 
 
 def _running(record: SegmentationRecord, token: str) -> bool:

@@ -35,7 +35,5 @@ def _sweep_animation(jobs: Jobs, blobs: Blobs, animation: AnimationRecord, unuse
     if not unused or any(cut.live for cut in cuts):
         return
     forget_files(jobs, blobs, animation)
-    if len(outdated) == len(cuts):
-        jobs.records.delete_animation(animation)
-    else:
+    if not jobs.records.delete_animation(animation):
         jobs.records.strip_animation(animation)

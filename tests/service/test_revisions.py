@@ -298,3 +298,14 @@ def test_only_the_newest_files_are_kept(service, fresh):
     stored = {path.name for path in (service.data / "blobs" / "exports").rglob("*")}
     assert {jobs.records.export(identifier, form).key.rpartition("/")[2] for form in kept} <= stored
     assert service.http.get(f"{fresh}/clips", headers={"Prefer": "wait=30"}).status_code == 200
+
+
+def test_answers_that_there_is_no_file_are_as_few(service, fresh):
+    """Each wish for clips of a motion that there is not is refused, and no more of them are remembered than files."""
+    identifier, records = fresh.rpartition("/")[2], Jobs(connect(service.redis_url)).records
+    for number in range(MOST_EXPORTS + 3):
+        answer = service.http.get(f"{fresh}/clips?loop=none-{number}", headers={"Prefer": "wait=30"})
+        assert (answer.status_code, answer.json()["code"]) == (422, "unknown-motion")
+    while len(records.exports(identifier)) > MOST_EXPORTS:
+        time.sleep(0.05)
+    assert len(list(records.redis.scan_iter(f"caesura:export:{identifier}:*", count=1000))) <= MOST_EXPORTS

@@ -1,0 +1,92 @@
+"""Deleting while others ask: whatever comes first, nothing is left that nobody would delete any more."""
+
+import threading
+from contextlib import suppress
+
+import pytest
+
+from worker.forgetting import forget_animation, forget_segmentation
+from worker.records import AnimationDeleted
+from worker.retention import sweep
+
+
+def left(place, *identifiers):
+    """Keys of Redis, and blobs, that speak of them."""
+    keys = [key for key in place.redis.scan_iter(count=1000) if any(i.encode() in key for i in identifiers)]
+    return keys, [key for key, _ in place.blobs.all()]
+
+
+def test_nothing_is_queued_of_what_has_gone(idle, take):
+    """The file was deleted between its upload and its order: that is said, and no record is kept."""
+    animation = idle.upload(take)
+    forget_animation(idle.jobs, idle.blobs, animation)
+    with pytest.raises(AnimationDeleted) as refused:
+        idle.submit(animation)
+    assert refused.value.code == "animation-deleted"
+    assert left(idle, animation.id, idle.wanted(animation).id) == ([], [])
+    assert idle.jobs.depths() == {"analyse": 0, "cut": 0}
+
+
+def test_what_is_queued_while_its_animation_is_deleted_goes_with_it(idle, take, monkeypatch):
+    """The order comes when all is deleted but the record of the upload: it is deleted too."""
+    animation, late = idle.upload(take), []
+    delete = idle.records.delete_animation
+
+    def delayed(record):
+        if not late:
+            late.append(idle.submit(animation))
+        return delete(record)
+
+    monkeypatch.setattr(idle.records, "delete_animation", delayed)
+    forget_animation(idle.jobs, idle.blobs, animation)
+    assert late
+    assert left(idle, animation.id, late[0].id) == ([], [])
+    assert not idle.records.live()
+
+
+def test_what_is_queued_while_its_animation_is_swept_is_told(idle, take, monkeypatch):
+    """The sweep has deleted the files when the order comes: the order stays, and its job will say why it has none."""
+    animation, late = idle.upload(take), []
+    delete = idle.records.delete_animation
+
+    def delayed(record):
+        late.append(idle.submit(animation))
+        return delete(record)
+
+    monkeypatch.setattr(idle.records, "delete_animation", delayed)
+    sweep(idle.jobs, idle.blobs, -1.0, 1e9)
+    assert idle.records.segmentation(late[0].id).live
+    assert idle.records.animation(animation.id).parts == ()
+
+
+def test_no_file_is_made_of_what_has_gone(idle, take):
+    """Asked for in the moment of the delete: it is not found, and nothing is remembered of it."""
+    record = idle.submit(idle.upload(take))
+    forget_segmentation(idle.jobs, idle.blobs, record.id)
+    assert idle.jobs.submit_export(record.id, "npz").problem["code"] == "not-found"
+    assert left(idle, record.id)[0] == []
+
+
+def test_deleting_and_asking_at_once_leaves_all_or_nothing(idle, take):
+    """Three ask again and again while one deletes and uploads anew: after the last delete there is not a key."""
+    animation = idle.upload(take)
+    over = threading.Event()
+
+    def ask():
+        while not over.is_set():
+            with suppress(AnimationDeleted):
+                idle.submit(animation, motions=2)
+            over.wait(0.005)
+
+    asking = [threading.Thread(target=ask) for _ in range(3)]
+    for thread in asking:
+        thread.start()
+    for _ in range(10):
+        forget_animation(idle.jobs, idle.blobs, animation)
+        idle.records.add_animation(animation)
+    over.set()
+    for thread in asking:
+        thread.join()
+    forget_animation(idle.jobs, idle.blobs, animation)
+    assert left(idle, animation.id, idle.wanted(animation, motions=2).id)[0] == []
+    assert idle.jobs.depths() == {"analyse": 0, "cut": 0}
