@@ -143,3 +143,8 @@ def test_every_form_is_of_the_revision_that_is_shown(result: Page) -> None:
     hrefs = [link.get_attribute("href") or "" for link in links.all()]
     assert len(hrefs) >= 9
     assert all(re.search(r"\?revision=\d+$", href) for href in hrefs)
+    result.locator(".menu summary").click()
+    with result.expect_download() as saving:
+        result.locator("[data-form=json]").click()
+    assert saving.value.suggested_filename == "smooth.json"
+    expect(result.locator("[data-form=json]")).to_be_hidden()

@@ -2,7 +2,7 @@
 
 import { frameOfAddress, remember, resultOfAddress, revisionOfAddress } from './address.js';
 import * as api from './api.js';
-import { controls, offerMethods } from './controls.js';
+import { controls, note, offerMethods } from './controls.js';
 import { $, announce } from './dom.js';
 import { face, refuse } from './faces.js';
 import { drawHeatKey } from './heat.js';
@@ -83,6 +83,7 @@ async function follow(id, signal) {
 
 function show(result, status, viewer) {
   shown?.close();
+  note('');
   face('result', status.name);
   $('subject').textContent = [status.name, about(result)].filter(Boolean).join(' · ');
   $('result-title').textContent = status.name;

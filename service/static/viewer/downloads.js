@@ -32,6 +32,8 @@ export function downloads(shown) {
   clips.onclick = (event) => save(event, clips, 'clips', true);
   links.push([clips, 'clips']);
   const note = (sentence) => { $('downloads-note').textContent = sentence; };
+  let of = ''; // the result that was noted of
+  list.addEventListener('click', () => { menu.open = false; });
   menu.addEventListener('keydown', (event) => {
     if (event.key !== 'Escape' || !menu.open) return;
     event.stopPropagation();
@@ -62,6 +64,8 @@ export function downloads(shown) {
   /** Point the links at what is on screen now. */
   return () => {
     const { id, revision, name } = shown();
+    if (id !== of) note('');
+    of = id;
     for (const [link, path] of links) {
       link.href = api.form(id, path, revision);
       if (path.startsWith('result.')) link.download = `${stem(name)}${path.slice('result'.length)}`;
