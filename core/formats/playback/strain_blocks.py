@@ -18,6 +18,7 @@ from core.descriptors.patch_means import PatchMeans
 from core.descriptors.patches import patch_of_triangles
 from core.descriptors.strain import TriangleStrain
 from core.formats.playback.block_file import FRAMES_PER_BLOCK, block_file
+from core.one_thread import one_thread
 from core.progress import Progress, ignore
 from core.surfaces import Surface
 
@@ -74,7 +75,8 @@ def strain_blocks(
 
     found = map_blocks(measured, blocks, threads, progress=progress, stage="figure", total=len(blocks))
     facts = {"kind": "strain", "patches": shown.means.patches, "strain_scale": scale}
-    yield from block_file(facts, {}, animation.frames, shown.means.patches, found)
+    with one_thread():  # a heat kernel is algebra, whose own threads would wait for ours
+        yield from block_file(facts, {}, animation.frames, shown.means.patches, found)
 
 
 def _bytes(

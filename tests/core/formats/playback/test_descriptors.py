@@ -4,6 +4,7 @@ from typing import get_args
 
 import numpy as np
 import pytest
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from core.formats.playback.play import _patches
 from core.formats.playback.strain_blocks import strain_blocks
@@ -28,3 +29,17 @@ def test_the_chosen_descriptor_is_shown(name: str) -> None:
     assert header["patches"] > 64
     assert found.max() > 100
     assert found.mean(axis=1).min() < 40
+
+
+def test_what_is_shown_is_measured_without_the_threads_of_algebra() -> None:
+    """A heat kernel solves small systems; the algebra's own threads would wait for each other, and for ours."""
+    animation = performing_bar((0, 1), seconds=1.0).animation
+    parameters = Parameters(descriptor="heat-kernel")
+    analysis = analyse(animation, parameters)
+    shown = _patches(animation, analysis)
+    with threadpool_limits(2):
+        blocks = strain_blocks(animation, shown, analysis.strain_scale)
+        next(blocks)
+        assert {library["num_threads"] for library in threadpool_info() if library["user_api"] == "blas"} == {1}
+        blocks.close()
+        assert {library["num_threads"] for library in threadpool_info() if library["user_api"] == "blas"} == {2}
