@@ -24,6 +24,9 @@ from worker.settings import WorkerSettings
 
 SECRET = b"of the tests"
 
+SLOWLY = {"descriptor": "heat-kernel"}
+"""Parameters that keep a worker busy with every frame: a take of a minute for seconds, on a fast machine too."""
+
 
 def take_npz(order=(0, 1, 0), seconds=2.0, rings=8):
     """The bytes of an NPZ: the performing bar, 60 frames a motion."""

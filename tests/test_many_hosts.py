@@ -11,7 +11,7 @@ import httpx
 import pytest
 import redis
 
-from tests.installation import take_npz
+from tests.installation import SLOWLY, take_npz
 from tests.object_store import BUCKET, ObjectStore, free_port
 from worker.redis_server import find_program
 
@@ -179,8 +179,8 @@ def test_a_take_goes_through_hosts_that_share_no_disk(hosts, store):
 def test_a_host_that_is_taken_away_loses_no_take(hosts):
     """Both hosts of workers have a long take; one is scaled away; the other does both."""
     front, near = hosts["front"], hosts["near"]
-    takes = [take_npz(order=(0, 1) * 10, seconds=8.0, rings=60 + more) for more in range(2)]
-    sent = [front.send(take, motions=2)["id"] for take in takes]
+    takes = [take_npz(order=(0, 1) * 4, seconds=8.0, rings=60 + more) for more in range(2)]
+    sent = [front.send(take, motions=2, **SLOWLY)["id"] for take in takes]
     for identifier in sent:
         front.until(identifier, "running", "done")
     near.stop()

@@ -45,5 +45,5 @@ def take():
 
 @pytest.fixture(scope="session")
 def long_take():
-    """A take that keeps a worker busy for seconds."""
-    return take_npz(order=(0, 1) * 10, seconds=8.0, rings=60)
+    """A take that keeps a worker busy for seconds where it is measured `SLOWLY`."""
+    return take_npz(order=(0, 1) * 4, seconds=8.0, rings=60)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.installation import descendants
+from tests.installation import SLOWLY, descendants
 from worker import keys
 from worker.horse import WORKING
 from worker.jobs import QUEUES, Jobs, QueueFull, pause_seconds, worker_problem
@@ -166,7 +166,7 @@ def nothing_started(place, seconds=3.0):
 
 def test_a_killed_work_horse_is_tried_again(place, long_take):
     """SIGKILL in the middle, as an out-of-memory killer does: the second attempt is done, and RQ has nothing left."""
-    record = place.begun(place.submit(place.upload(long_take)).id)
+    record = place.begun(place.submit(place.upload(long_take), **SLOWLY).id)
     os.kill(horse(place.pool), signal.SIGKILL)
     done = place.ended(record.id)
     assert (done.status, done.attempt) == ("done", 2)
@@ -175,7 +175,7 @@ def test_a_killed_work_horse_is_tried_again(place, long_take):
 
 def test_a_job_that_is_always_killed_fails_with_a_code(place, long_take):
     """Killed at every attempt, it ends, and says why."""
-    record = place.submit(place.upload(long_take))
+    record = place.submit(place.upload(long_take), **SLOWLY)
     for attempt in range(1, place.settings.attempts + 1):
         place.until(record.id, lambda r, attempt=attempt: r.attempt == attempt and r.stage)
         os.kill(horse(place.pool), signal.SIGKILL)
@@ -186,7 +186,7 @@ def test_a_job_that_is_always_killed_fails_with_a_code(place, long_take):
 
 def test_a_running_job_can_be_cancelled(place, long_take):
     """It stops within a second, and the worker takes the next one."""
-    record = place.begun(place.submit(place.upload(long_take)).id)
+    record = place.begun(place.submit(place.upload(long_take), **SLOWLY).id)
     assert place.jobs.cancel(record.id).status == "cancelled"
     assert nothing_started(place, seconds=2.0)
     assert place.records.segmentation(record.id).status == "cancelled"

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.installation import Installation, alive, descendants
+from tests.installation import SLOWLY, Installation, alive, descendants
 from worker.settings import WorkerSettings
 
 SERVE = """
@@ -90,7 +90,7 @@ def test_however_it_ends_no_orphan_and_no_lost_job(start, long_take):
     """SIGTERM hands a long job back, uncounted; SIGKILL loses an attempt; the next start finishes the job."""
     serving = start()
     assert health(serving.address) == 200
-    record = serving.place.submit(serving.place.upload(long_take))
+    record = serving.place.submit(serving.place.upload(long_take), **SLOWLY)
     serving.place.begun(record.id)
     assert serving.end(signal.SIGTERM) == (0, [])
     serving = start()

@@ -4,6 +4,8 @@ import json
 
 import numpy as np
 
+from tests.installation import SLOWLY
+
 
 def test_an_upload_becomes_a_result(place, take):
     """A submitted take is queued, runs, and is done; record, document, curve and labels tell the same."""
@@ -32,7 +34,7 @@ def test_the_page_has_something_to_play(place, take):
 
 def test_progress_names_the_stages_in_order(place, long_take):
     """While it runs, the record says where: fractions of one stage never fall, and the last word is the whole."""
-    submitted = place.submit(place.upload(long_take))
+    submitted = place.submit(place.upload(long_take), **SLOWLY)
     told = []
 
     def note(record):
