@@ -116,12 +116,16 @@ def test_a_person_without_a_mouse_gets_everywhere(result: Page) -> None:
 
 
 def test_review_goes_through_the_cuts_by_keys_and_remembers_what_was_checked(result: Page) -> None:
-    """N selects the least certain, C checks it and goes on; a reload forgets nothing."""
+    """N selects the least certain, P plays around it, C checks it and goes on; a reload forgets nothing."""
     result.keyboard.press("Escape")
     result.keyboard.press("n")
     least = result.locator("#cuts button").first
     expect(least).to_have_attribute("aria-current", "true")
     frame = least.locator(".from").text_content()
+    result.keyboard.press("p")
+    expect(result.locator("#play")).to_have_attribute("aria-label", "Pause")
+    expect(result.locator("#play")).to_have_attribute("aria-label", "Play")
+    expect(least).to_have_attribute("aria-current", "true")
     result.keyboard.press("c")
     expect(result.locator("#cuts button", has_text=frame)).to_contain_text("checked")
     expect(result.locator("#cuts button").first).to_have_attribute("aria-current", "true")

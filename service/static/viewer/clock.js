@@ -29,11 +29,10 @@ export class Clock {
     this.tell();
   }
 
-  /** Play [start, end) once, at normal speed, then come to rest at `rest`. */
+  /** Play [start, end) once, at normal speed, then come to rest at `rest`. Nobody hears of `start` as of a place to stay. */
   once(start, end, rest) {
-    this.toggle(false);
     this.loop = null;
-    this.seek(start);
+    this.position = Math.max(0, start);
     this.toggle(true);
     this.until = { end: Math.min(end, this.frames - 1), rest };
   }
