@@ -92,7 +92,8 @@ def problem_response(problem: Mapping[str, Any], headers: Mapping[str, str] | No
         **problem,
     }
     retry = {"Retry-After": str(RETRY_SECONDS[status])} if status in RETRY_SECONDS else {}
-    return JSONResponse(document, status, {**retry, **(headers or {})}, MEDIA_TYPE)
+    told = {"Cache-Control": "no-store", **retry, **(headers or {})}  # a 404 may be kept for others, unless it says so
+    return JSONResponse(document, status, told, MEDIA_TYPE)
 
 
 def install(app: FastAPI) -> None:

@@ -3,6 +3,7 @@
 A raw body, `curl --data-binary` (whatever type it claims) and a form of one part are the same upload.
 """
 
+import shutil
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
@@ -13,7 +14,9 @@ from anyio import CancelScope, to_thread
 from fastapi import Request
 
 from core.errors import LimitExceeded
+from service.errors import Refusal
 from service.multipart import OVERHEAD_BYTES, MultipartBody, boundary
+from service.settings import ServiceSettings
 from service.spool import Part, SpoolFile
 
 BLOCK_BYTES = 2**20
@@ -60,18 +63,24 @@ class RawBody:
 
 
 @asynccontextmanager
-async def received(request: Request, folder: Path, limit: int) -> AsyncIterator[Upload]:
+async def received(request: Request, folder: Path, settings: ServiceSettings) -> AsyncIterator[Upload]:
     """The upload of `request`, in `folder` until the block ends; what is to stay must have been moved by then.
 
-    Raises `LimitExceeded` ("upload-too-large") as soon as `limit` bytes are passed, announced or not.
+    Raises `LimitExceeded` ("upload-too-large") as soon as more bytes than may be are passed, announced or not, and
+    `Refusal` ("storage-full") where what is still to come would fill the disk: others may be sending too.
     """
+    limit = settings.max_upload_bytes
     mark = boundary(request.headers.get("content-type", ""))
     body: Body = await to_thread.run_sync(
         lambda: MultipartBody(folder, mark) if mark else RawBody(folder, request.query_params.get("name", ""))
     )
     try:
+        left = _announced(request)
         async for block in _blocks(request, limit + (OVERHEAD_BYTES if mark else 0), limit):
+            left = max(left, len(block))
+            await to_thread.run_sync(_check_disk, folder, left, settings.min_free_bytes)
             await to_thread.run_sync(body.feed, block)
+            left -= len(block)
         parts, fields = await to_thread.run_sync(body.finish)
         yield Upload(parts, fields)
     finally:
@@ -81,7 +90,7 @@ async def received(request: Request, folder: Path, limit: int) -> AsyncIterator[
 
 async def _blocks(request: Request, most: int, limit: int) -> AsyncIterator[bytes]:
     """The body in blocks large enough that handing one to a thread costs little."""
-    announced = int(request.headers.get("content-length", 0))
+    announced = _announced(request)
     if announced > most:
         raise _too_large(announced, limit)
     count, block = 0, bytearray()
@@ -95,6 +104,16 @@ async def _blocks(request: Request, most: int, limit: int) -> AsyncIterator[byte
             block.clear()
     if block:
         yield bytes(block)
+
+
+def _announced(request: Request) -> int:
+    return int(request.headers.get("content-length", 0))
+
+
+def _check_disk(folder: Path, coming: int, stays_free: int) -> None:
+    if shutil.disk_usage(folder).free - coming < stays_free:
+        detail = "The disk of the service has no room for this upload. Nothing was kept; tell its keeper, or try later."
+        raise Refusal("storage-full", detail, setting="CAESURA_MIN_FREE_BYTES")
 
 
 def _too_large(actual: int, limit: int) -> LimitExceeded:

@@ -9,7 +9,7 @@ from fastapi import FastAPI
 
 from core import errors as core_errors
 from service import errors
-from service.errors import STATUS, status_of
+from service.errors import STATUS, Refusal, status_of
 from worker.blobs import BlobMissing
 
 
@@ -41,6 +41,12 @@ def test_a_code_wins_over_its_kind():
     """An upload over the limit is 413, other limits are 422."""
     assert status_of({"kind": "limit", "code": "upload-too-large"}) == 413
     assert status_of({"kind": "limit", "code": "limit-exceeded"}) == 422
+
+
+def test_no_problem_is_kept_by_a_cache():
+    """What is not there today may be there tomorrow, and what one may not see another may."""
+    for failure in (Refusal("not-found", "There is none."), redis.ConnectionError("away")):
+        assert answered(failure).headers["Cache-Control"] == "no-store"
 
 
 def test_what_is_in_no_table_is_ours():

@@ -83,3 +83,17 @@ def test_a_disk_that_is_nearly_full_takes_no_more_work(checkout, idle, tmp_path,
         assert int(ready.headers["Retry-After"]) >= 1
         assert other.http.get(f"/v1/segmentations/{kept}").json()["status"] == "queued"
         assert other.http.delete(f"/v1/segmentations/{kept}").status_code == 200
+
+
+def test_an_upload_that_would_fill_the_disk_is_refused_as_it_begins(checkout, idle, tmp_path):
+    """There is room when it is announced, but not for all of it: 507, before it is received, and nothing is kept."""
+    everything = shutil.disk_usage(tmp_path).total
+    with serve(checkout, tmp_path, idle.redis_url, workers=False, max_upload_bytes=2 * everything) as other:
+        host, port = other.url.removeprefix("http://").split(":")
+        with socket.create_connection((host, int(port)), timeout=20) as client:
+            head = f"POST /v1/animations HTTP/1.1\r\nHost: localhost\r\nContent-Length: {everything}\r\n\r\n"
+            client.sendall(head.encode() + b"glTF" + bytes(1 << 20))
+            answer = client.recv(1 << 16)
+        assert answer.startswith(b"HTTP/1.1 507 ")
+        assert b'"storage-full"' in answer
+        assert not other.spooled()
