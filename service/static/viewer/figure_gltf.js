@@ -17,6 +17,7 @@ class GltfFigure {
 
   constructor(gltf, viewer, strain) {
     this.object = gltf.scene;
+    this.object.updateMatrixWorld(true);
     this.painted = [];
     this.#viewer = viewer;
     this.object.traverse((node) => {
@@ -49,6 +50,7 @@ class GltfFigure {
     mesh.material = strain.dress(new MeshLambertMaterial({
       side: DoubleSide, flatShading: !geometry.getAttribute('normal'),
     }));
+    if (mirrored(mesh)) mesh.material.defines = { MIRRORED: '' };
   }
 
   #paint(mesh, strain) {
@@ -94,4 +96,11 @@ class GltfFigure {
     this.#mixer?.stopAllAction();
     this.object.traverse((node) => { node.geometry?.dispose(); node.material?.dispose(); node.skeleton?.dispose(); });
   }
+}
+
+/** Whether joints mirror a skinned mesh: then its triangles turn the other way, which only the mesh itself says to three.js. */
+function mirrored({ skeleton, matrixWorld }) {
+  if (!skeleton) return false;
+  const turned = skeleton.bones[0].matrixWorld.determinant() * skeleton.boneInverses[0].determinant();
+  return turned * matrixWorld.determinant() < 0;
 }

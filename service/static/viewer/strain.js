@@ -52,14 +52,15 @@ export class Strain {
     this.uniforms.patches.value = patches;
   }
 
-  /** Make a material show strain or a tint. */
+  /** Make a material show strain or a tint; with MIRRORED among its `defines`, the light falls on the other side. */
   dress(material) {
     material.onBeforeCompile = (shader) => {
       Object.assign(shader.uniforms, this.uniforms);
       shader.vertexShader = VERTEX + shader.vertexShader.replace('#include <begin_vertex>',
         '#include <begin_vertex>\n  vStrain = texture2D(strainMap, vec2((_patch + 0.5) / patches, 0.5)).r;');
-      shader.fragmentShader = FRAGMENT + shader.fragmentShader.replace('#include <color_fragment>',
-        '#include <color_fragment>\n  diffuseColor.rgb = mix(tint, heatOf(vStrain), heated);');
+      shader.fragmentShader = FRAGMENT + shader.fragmentShader
+        .replace('#include <color_fragment>', '#include <color_fragment>\n  diffuseColor.rgb = mix(tint, heatOf(vStrain), heated);')
+        .replace('#include <normal_fragment_maps>', '#include <normal_fragment_maps>\n#ifdef MIRRORED\n  normal = -normal;\n#endif');
     };
     return material;
   }
