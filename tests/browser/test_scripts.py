@@ -119,3 +119,25 @@ def test_a_name_is_shortened_to_what_there_is_room_for(answer) -> None:
         const context = { measureText: (text) => ({ width: 10 * [...text].length }) };
         console.log(JSON.stringify([200, 110, 60, 30, 15].map((room) => fitted(context, 'walk forward', ' ↻', room))));
     """) == ["walk forward ↻", "walk for… ↻", "wal… ↻", "", ""]
+
+
+def test_a_second_around_a_cut_is_played_once_whatever_is_repeated(answer) -> None:
+    """It ends at the cut, also where every segment is repeated, and also if it is asked for while it plays."""
+    seen = answer("""
+        import { Clock } from 'VIEWER/clock.js';
+        let now = 0;
+        const waiting = [];
+        globalThis.requestAnimationFrame = (action) => waiting.push(action);
+        const step = () => waiting.splice(0).forEach((action) => action(now += 50));
+        const clock = new Clock(100, 30);
+        clock.listen(() => { if (!clock.loop && !clock.until) clock.loop = [0, 50]; });
+        const told = [];
+        clock.listen(() => told.push([clock.frame, clock.playing]));
+        clock.once(35, 65, 50);
+        for (let i = 0; i < 5; i++) step();
+        clock.once(35, 65, 50);
+        for (let i = 0; i < 60; i++) step();
+        console.log(JSON.stringify([told[0], told.at(-1), Math.max(...told.map(([frame]) => frame))]));
+    """)
+    assert seen[:2] == [[35, True], [50, False]]
+    assert 60 < seen[2] < 65

@@ -21,6 +21,20 @@ export class Clock {
 
   toggle(playing = !this.playing) {
     this.until = null;
+    this.#run(playing);
+  }
+
+  /** Play [start, end) once, at normal speed, then come to rest at `rest`. Nobody hears of `start` as of a place to stay. */
+  once(start, end, rest) {
+    this.loop = null;
+    this.position = Math.max(0, start);
+    this.until = { end: Math.min(end, this.frames - 1), rest };
+    this.#run(true);
+  }
+
+  tell() { for (const listener of this.#listeners) listener(this); }
+
+  #run(playing) {
     if (playing === this.playing) return;
     if (playing && !this.loop && this.position >= this.frames - 1) this.position = 0;
     this.playing = playing;
@@ -28,16 +42,6 @@ export class Clock {
     if (playing) requestAnimationFrame((now) => this.#tick(now));
     this.tell();
   }
-
-  /** Play [start, end) once, at normal speed, then come to rest at `rest`. Nobody hears of `start` as of a place to stay. */
-  once(start, end, rest) {
-    this.loop = null;
-    this.position = Math.max(0, start);
-    this.toggle(true);
-    this.until = { end: Math.min(end, this.frames - 1), rest };
-  }
-
-  tell() { for (const listener of this.#listeners) listener(this); }
 
   #tick(now) {
     if (!this.playing) return;
