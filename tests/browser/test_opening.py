@@ -17,6 +17,10 @@ pytestmark = pytest.mark.timeout(240)
 def test_another_number_of_motions_is_shown_in_place(page: Page, smooth: Path) -> None:
     """Asking for two motions cuts again and shows two, without another look at the figure."""
     address = opened(page, smooth)
+    for unusable in ("many", "1001", "0", "2.5"):
+        page.locator("#motions").fill(unusable)
+        page.locator("#motions").press("Enter")
+        expect(page.locator("#controls-note")).to_have_text("A whole number of motions up to 1000, or auto.")
     page.locator("#motions").fill("2")
     page.locator("#motions").press("Enter")
     expect(page.locator("#summary")).to_contain_text("2 motions", timeout=30_000)

@@ -5,6 +5,7 @@ import { $, make } from './dom.js';
 import { showScores } from './scores.js';
 
 const DELAY = 350; // ms of quiet before a typed or stepped number is sent
+const MOST = 1000; // motions; the service takes no more
 
 let choose = () => {};
 let told = new Set(); // the methods that cannot find the number of motions themselves
@@ -22,11 +23,11 @@ export function controls({ recut, current }) {
     const text = field.value.trim().toLowerCase();
     if (text === '' || text === 'auto') return 'auto';
     const number = Number(text);
-    return Number.isInteger(number) && number > 0 ? number : null;
+    return Number.isInteger(number) && number > 0 && number <= MOST ? number : null;
   };
   const step = (by) => {
     const from = typed();
-    const number = Math.max(1, (from === 'auto' || from === null ? current().motions : from) + by);
+    const number = Math.max(1, Math.min(MOST, (from === 'auto' || from === null ? current().motions : from) + by));
     field.value = number;
     $('auto').setAttribute('aria-pressed', 'false');
     send({ motions: number }, DELAY);
@@ -41,7 +42,7 @@ export function controls({ recut, current }) {
   });
   field.addEventListener('change', () => {
     const motions = typed();
-    if (motions === null) note('A whole number of motions, or auto.');
+    if (motions === null) note(`A whole number of motions up to ${MOST}, or auto.`);
     else if (motions === 'auto' && told.has(current().method)) note(`The method ${current().method} must be told a number.`);
     else send({ motions });
   });
