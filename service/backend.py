@@ -14,6 +14,7 @@ from redis.exceptions import RedisError
 
 from service.errors import Refusal
 from service.key_file import KeyFile
+from service.seats import Seats
 from service.settings import ServiceSettings
 from service.told import Told, told
 from worker import ids
@@ -35,6 +36,7 @@ class Backend:
     jobs: Jobs
     blobs: Blobs
     key_file: KeyFile
+    seats: Seats = field(default_factory=Seats)
     _waits: set[CancelScope] = field(default_factory=set)
 
     @cached_property

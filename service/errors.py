@@ -52,6 +52,7 @@ STATUS: dict[str, int] = {
     "animation-deleted": 410,
     "range-not-satisfiable": 416,
     "too-many-requests": 429,
+    "too-many-streams": 429,
     "queue-unavailable": 503,
     "storage-unavailable": 503,
     "not-ready": 503,

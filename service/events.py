@@ -1,7 +1,7 @@
 """Status as server-sent events: each change once, a sign of life every 15 s, the end after the last change."""
 
-from collections.abc import AsyncIterator, Awaitable, Callable
-from contextlib import aclosing
+from collections.abc import AsyncGenerator, AsyncIterator, Awaitable, Callable
+from contextlib import AbstractContextManager, aclosing
 
 from anyio import current_time
 
@@ -20,7 +20,15 @@ def event_id(record: SegmentationRecord) -> str:
     return f"{record.updated:.6f}"
 
 
-async def status_events(backend: Backend, identifier: str, last_seen: str, admitted: Admitted) -> AsyncIterator[str]:
+async def seated(seat: AbstractContextManager[None], stream: AsyncGenerator[str]) -> AsyncIterator[str]:
+    """The same stream, which takes a seat from its first word until it is over or left."""
+    with seat:
+        async with aclosing(stream):
+            async for text in stream:
+                yield text
+
+
+async def status_events(backend: Backend, identifier: str, last_seen: str, admitted: Admitted) -> AsyncGenerator[str]:
     """The stream's text: `status` events with a status document each; `deleted` where it is deleted meanwhile.
 
     A state that the client has seen, as its Last-Event-ID says, is not sent again. It ends before the next word, and

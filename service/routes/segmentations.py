@@ -14,11 +14,12 @@ from service.answers import answer, outcome, preference_applied, text_answer
 from service.backend import Behind
 from service.descriptions import EVENTS, SUBMISSION, SUBMITTED
 from service.documents import SegmentationPage, StatusDocument
-from service.events import event_id, status_events
+from service.events import event_id, seated, status_events
 from service.intake import keep
 from service.orders import json_order, query_order
 from service.paging import Cursor, Limit, created_before, cursor_of
 from service.preferences import wait_seconds
+from service.seats import who_asks
 from service.submission import submit
 from service.uploads import received
 from service.visitors import admitted
@@ -88,8 +89,13 @@ async def events(
     record = await backend.segmentation(identifier, owner)
     if not record.live and event_id(record) == last_event_id:
         return Response(status_code=204)  # tells an EventSource not to come back
+    who = who_asks(request)
+    backend.seats.check(who)
     stream = status_events(backend, identifier, last_event_id, partial(admitted, backend, request))
-    return StreamingResponse(stream, headers={"Cache-Control": "no-store"}, media_type="text/event-stream")
+    seat = backend.seats.taken(who)
+    return StreamingResponse(
+        seated(seat, stream), headers={"Cache-Control": "no-store"}, media_type="text/event-stream"
+    )
 
 
 @router.delete("/{identifier}", response_model=StatusDocument, responses={204: {"description": "Deleted."}})

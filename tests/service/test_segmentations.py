@@ -1,13 +1,16 @@
 """A segmentation is asked for once, however often it is asked for, and can be followed, waited for and cancelled."""
 
 import json
+import socket
 import subprocess
+import time
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 
 import httpx
 import pytest
 
+from service.seats import MOST_STREAMS
 from tests.service.conftest import npz
 
 PREFER = {"Prefer": "wait=30"}
@@ -169,6 +172,30 @@ def test_events_tell_every_change_to_the_end(service, take):
     last = [line.removeprefix("id: ") for line in lines if line.startswith("id: ")][-1]
     again = service.http.get(f"/v1/segmentations/{identifier}/events", headers={"Last-Event-ID": last})
     assert again.status_code == 204
+
+
+def test_there_is_an_end_to_open_streams(idle, take):
+    """One too many is refused and told what to do; where another is left there is room again."""
+    address = idle.http.post("/v1/segmentations", content=take(67)).json()["links"]["events"]
+    place = httpx.URL(idle.url)
+
+    def opened():
+        client = socket.create_connection((place.host, place.port), timeout=20)
+        client.sendall(f"GET {address} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
+        return client, client.recv(1 << 12).split()[1]
+
+    streams = [opened() for _ in range(MOST_STREAMS)]
+    assert {status for _, status in streams} == {b"200"}
+    refused = idle.http.get(address)
+    assert (refused.status_code, refused.json()["code"]) == (429, "too-many-streams")
+    assert int(refused.headers["Retry-After"]) >= 1
+    streams.pop()[0].close()
+    deadline = time.monotonic() + 20
+    while (again := opened())[1] != b"200":
+        assert time.monotonic() < deadline
+        again[0].close()
+    for client, _ in [*streams, again]:
+        client.close()
 
 
 def test_events_tell_of_a_cancel(idle, take):
