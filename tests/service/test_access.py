@@ -365,6 +365,25 @@ def test_names_can_be_added_and_floods_wait(checkout, idle, tmp_path):
         assert other.http.get("/healthz").status_code == other.http.get("/readyz").status_code == 200
 
 
+def test_each_key_is_counted_for_itself_and_all_wrong_ones_together(checkout, guarded, tmp_path):
+    """A flood of one key leaves the others alone; who tries key after key is stopped, by a cookie too."""
+    settings = {"access": "keys", "requests_a_minute": 5}
+    with serve(checkout, tmp_path, guarded.running.redis_url, workers=False, **settings) as other:
+
+        def asked(headers):
+            other.http.cookies.clear()
+            return other.http.get("/v1/limits", headers=headers).status_code
+
+        mine, theirs = ({"Authorization": f"Bearer {guarded.key(name)}"} for name in ("flooding", "calm"))
+        assert [asked(mine) for _ in range(6)] == [200] * 5 + [429]
+        assert asked(theirs) == 200
+        guesses = [{"Authorization": f"Bearer caesura_{number}"} for number in range(4)]
+        assert [asked(guess) for guess in [*guesses, {}, *guesses]] == [401] * 5 + [429] * 4
+        assert asked({"Cookie": "caesura-session=guessed"}) == 429
+        assert other.http.post("/v1/session", json={"key": "caesura_guessed"}).status_code == 429
+        assert asked(theirs) == 200
+
+
 @pytest.mark.parametrize(
     ("host", "access", "needed"),
     [

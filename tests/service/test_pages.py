@@ -49,3 +49,10 @@ def test_there_is_no_way_out_of_the_static_folder(idle):
     """Neither by dots nor by encoded dots."""
     for path in ("/static/../settings.py", "/static/%2e%2e/settings.py", "/static//etc/passwd"):
         assert idle.http.get(path).status_code == 404
+
+
+@pytest.mark.parametrize("path", ["/docs", "/redoc", "/docs/oauth2-redirect"])
+def test_no_page_loads_scripts_of_another_site(idle, path):
+    """The framework's pages about the API do: they are not there. /openapi.json is."""
+    assert idle.http.get(path).json()["code"] == "not-found"
+    assert idle.http.get("/openapi.json").status_code == 200
