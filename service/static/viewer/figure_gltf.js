@@ -20,10 +20,13 @@ class GltfFigure {
     this.object.updateMatrixWorld(true);
     this.painted = [];
     this.#viewer = viewer;
+    const meshes = [];
     this.object.traverse((node) => {
-      if (node.isMesh) this.#dress(node, strain);
+      if (node.isMesh) meshes.push(node);
       if (node.isBone) this.#points.push(node);
     });
+    const here = drawnBySoftware() && meshes.every(Skinning.suits); // all or none: what is painted is in front of what is drawn
+    for (const mesh of meshes) this.#dress(mesh, strain, here);
     if (viewer.skeleton) {
       this.#bones = bones(this.object);
       this.object.add(this.#bones.object);
@@ -39,14 +42,14 @@ class GltfFigure {
     this.pose(0);
   }
 
-  #dress(mesh, strain) {
+  #dress(mesh, strain, here) {
     mesh.frustumCulled = false; // its box is that of the bind pose, and it walks out of it
     const { geometry } = mesh;
     if (!geometry.getAttribute('_patch')) {
       geometry.setAttribute('_patch', new BufferAttribute(new Float32Array(geometry.getAttribute('position').count), 1));
     }
     if (geometry.index) geometry.setIndex(new BufferAttribute(inOrder(geometry.index.array), 1));
-    if (drawnBySoftware() && Skinning.suits(mesh)) return this.#paint(mesh, strain);
+    if (here) return this.#paint(mesh, strain);
     mesh.material = strain.dress(new MeshLambertMaterial({
       side: DoubleSide, flatShading: !geometry.getAttribute('normal'),
     }));

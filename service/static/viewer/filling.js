@@ -27,6 +27,9 @@ export function fill({ width, height, left: x0, low: y0, colours, depths }, at, 
     // in space: over a triangle that is small to the eye there is no difference.
     const pStep = vy / turn, qStep = -uy / turn;
     const z = at[3 * a + 2], zp = at[3 * b + 2] - z, zq = at[3 * c + 2] - z;
+    const r = shades[4 * a], rp = shades[4 * b] - r, rq = shades[4 * c] - r;
+    const g = shades[4 * a + 1], gp = shades[4 * b + 1] - g, gq = shades[4 * c + 1] - g;
+    const l = shades[4 * a + 2], lp = shades[4 * b + 2] - l, lq = shades[4 * c + 2] - l;
     for (let row = low; row <= high; row++) {
       const dx = left + 0.5 - x, dy = row + 0.5 - y;
       const p = (dx * vy - dy * vx) / turn, q = (ux * dy - uy * dx) / turn;
@@ -41,13 +44,10 @@ export function fill({ width, height, left: x0, low: y0, colours, depths }, at, 
         const second = p + n * pStep, third = q + n * qStep;
         if (second < -EDGE || third < -EDGE || second + third > 1 + EDGE) continue;
         const depth = z + second * zp + third * zq;
-        if (depth >= depths[2 * pixel + 1]) continue;
-        depths[2 * pixel + 1] = depth;
-        const first = 1 - second - third;
-        const red = first * shades[4 * a] + second * shades[4 * b] + third * shades[4 * c];
-        const green = first * shades[4 * a + 1] + second * shades[4 * b + 1] + third * shades[4 * c + 1];
-        const blue = first * shades[4 * a + 2] + second * shades[4 * b + 2] + third * shades[4 * c + 2];
-        colours[2 * pixel] = 0xff000000 | (blue << 16) | (green << 8) | red;
+        if (depth >= depths[pixel]) continue;
+        depths[pixel] = depth;
+        const red = r + second * rp + third * rq, green = g + second * gp + third * gq, blue = l + second * lp + third * lq;
+        colours[pixel] = 0xff000000 | (blue << 16) | (green << 8) | red;
       }
     }
   }

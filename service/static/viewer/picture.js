@@ -1,30 +1,27 @@
-// A picture filled by the processor, with the depth of each pixel, that hangs in the scene as if it had been drawn there.
+// A picture filled by the processor, that hangs in the scene in front of all else.
 
-import { BufferAttribute, BufferGeometry, DataTexture, GLSL3, Mesh, RGIntegerFormat, RawShaderMaterial, UnsignedIntType, Vector2, Vector4 } from 'three';
+import { BufferAttribute, BufferGeometry, DataTexture, GLSL3, Mesh, RawShaderMaterial, Vector2, Vector4 } from 'three';
 
 const TILE = 64; // pixels: it grows and shrinks by so many at a time
 const SPARE = 3; // times as large as it must be, it shrinks
-const EMPTY = 0x3f80000000000000n; // colour 0 and depth 1, as they lie in memory
+const FARTHEST = 1;
 
 const VERTEX = `
 in vec3 position;
 uniform vec4 place;
-void main() { gl_Position = vec4(mix(place.xy, place.zw, position.xy), 0.0, 1.0); }`;
+void main() { gl_Position = vec4(mix(place.xy, place.zw, position.xy), -1.0, 1.0); }`;
 const FRAGMENT = `
 precision highp float;
-precision highp usampler2D;
-uniform usampler2D pixels;
+uniform sampler2D pixels;
 uniform vec2 corner;
 out vec4 colour;
 void main() {
-  uvec2 pixel = texelFetch(pixels, ivec2(gl_FragCoord.xy - corner), 0).rg;
-  if (pixel.r == 0u) discard;
-  colour = vec4((uvec4(pixel.r) >> uvec4(0, 8, 16, 24)) & 255u) / 255.0;
-  gl_FragDepth = uintBitsToFloat(pixel.g);
+  colour = texelFetch(pixels, ivec2(gl_FragCoord.xy - corner), 0);
+  if (colour.a == 0.0) discard;
 }`;
 
 export class Picture {
-  #texture = null; #words;
+  #texture = null;
 
   constructor() {
     const geometry = new BufferGeometry();
@@ -37,15 +34,16 @@ export class Picture {
   }
 
   /**
-   * Empty it, and have it cover the pixels of `viewport` from `left` and `low` to before `right` and `high`. Of each pixel
-   * `colours` (red, green, blue and alpha as bytes of one number) and `depths` hold every second number, row by row, the
-   * lowest first, `width` pixels each.
+   * Empty it, and have it cover the pixels of `viewport` from `left` and `low` to before `right` and `high`. `colours` (red,
+   * green, blue and alpha as bytes of one number) and `depths` hold its pixels row by row, the lowest first, `width` each.
    */
   begin({ left, right, low, high }, viewport) {
     this.mesh.visible = right > left && high > low;
     if (!this.mesh.visible) return;
     this.#fit(right - left, high - low);
-    this.#words.fill(EMPTY, 0, this.width * (high - low));
+    const pixels = this.width * (high - low);
+    this.colours.fill(0, 0, pixels);
+    this.depths.fill(FARTHEST, 0, pixels);
     this.left = left;
     this.low = low;
     const { x, y, z: width, w: height } = viewport;
@@ -59,13 +57,10 @@ export class Picture {
     if (enough && this.width * this.height <= SPARE * (width + TILE) * (height + TILE)) return;
     this.width = Math.ceil(width / TILE) * TILE;
     this.height = Math.ceil(height / TILE) * TILE;
-    this.colours = new Uint32Array(2 * this.width * this.height);
-    this.depths = new Float32Array(this.colours.buffer);
-    this.#words = new BigUint64Array(this.colours.buffer);
+    this.colours = new Uint32Array(this.width * this.height);
+    this.depths = new Float32Array(this.colours.length);
     this.#texture?.dispose();
-    // Colour and depth side by side: one texture is sent, and one fetched from.
-    this.#texture = new DataTexture(this.colours, this.width, this.height, RGIntegerFormat, UnsignedIntType);
-    this.#texture.internalFormat = 'RG32UI';
+    this.#texture = new DataTexture(new Uint8Array(this.colours.buffer), this.width, this.height);
     this.uniforms.pixels.value = this.#texture;
   }
 }
