@@ -24,6 +24,7 @@ class Metrics:
 
     def __init__(self) -> None:
         self.registry = CollectorRegistry()
+        self._found: dict[tuple[str, str, int], tuple[Counter, Histogram]] = {}
         ProcessCollector(registry=self.registry)
         self._requests = Counter(
             "caesura_requests", "Answers, by call and status.", ["method", "route", "status"], registry=self.registry
@@ -39,9 +40,18 @@ class Metrics:
     def request(self, method: str, route: str, status: int, seconds: float | None) -> None:
         """Count an answer. What is no method and no route of ours has no name of its own: names are for ever."""
         method, route = method if method in METHODS else "other", route or "none"
-        self._requests.labels(method, route, str(status)).inc()
+        counter, histogram = self._of(method, route, status)
+        counter.inc()
         if seconds is not None:
-            self._seconds.labels(method, route).observe(seconds)
+            histogram.observe(seconds)
+
+    def _of(self, method: str, route: str, status: int) -> tuple[Counter, Histogram]:
+        """Its two series, found once: the library checks names and labels anew at each call."""
+        found = self._found.get((method, route, status))
+        if found is None:
+            series = self._requests.labels(method, route, str(status)), self._seconds.labels(method, route)
+            found = self._found[method, route, status] = series
+        return found
 
     def text(self, backend: Backend) -> bytes:
         """All of it in Prometheus's text form. Blocks: run it on a thread."""

@@ -66,6 +66,7 @@ def _foreign(page: str) -> Refusal:
     return Refusal("foreign-origin", f"{page} may not use this service from a browser; only its own page may.")
 
 
+@lru_cache(maxsize=64)
 def _name(host: str) -> str:
     """A host without its port."""
     try:

@@ -1,6 +1,7 @@
 """Records as their owner may see them: another's is not even read, and takes as long as none."""
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import redis.asyncio
 from pydantic_core import to_json
@@ -24,6 +25,13 @@ class OwnedReads:
 
     async def __call__(self, wanted: Sequence[tuple[str, str]]) -> list[bytes | None]:
         """The stored record of each (key, owner), or None where there is none, or another's."""
-        marks = [b'"owner":' + to_json(owner) for _, owner in wanted]
-        found: list[bytes | None] = await self._script([key for key, _ in wanted], marks)
+        found: list[bytes | None] = await self._script(
+            [key for key, _ in wanted], [_mark(owner) for _, owner in wanted]
+        )
         return found
+
+
+@lru_cache(maxsize=64)
+def _mark(owner: str) -> bytes:
+    """What a record of this owner says."""
+    return b'"owner":' + to_json(owner)
