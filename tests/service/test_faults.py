@@ -6,10 +6,12 @@ import shutil
 import signal
 import socket
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
 from tests.service.conftest import serve
+from worker.redis_server import EmbeddedRedis
 
 
 @pytest.fixture
@@ -97,3 +99,29 @@ def test_an_upload_that_would_fill_the_disk_is_refused_as_it_begins(checkout, id
         assert answer.startswith(b"HTTP/1.1 507 ")
         assert b'"storage-full"' in answer
         assert not other.spooled()
+
+
+def test_redis_that_is_killed_and_comes_back_is_heard_again(checkout, tmp_path, take):
+    """Meanwhile 503 with when to come back; then what was accepted is there, and who waits is woken as before."""
+    server = EmbeddedRedis(tmp_path / "redis")
+    server.start()
+    try:
+        with serve(checkout, tmp_path, server.url, workers=False) as other:
+            kept = other.http.post("/v1/segmentations", content=take(905)).json()["links"]["self"]
+            with ThreadPoolExecutor() as threads:
+                cut_off = threads.submit(other.http.get, kept, headers={"Prefer": "wait=30"})
+                time.sleep(1.5)  # its file is written once a second
+                os.kill(server.pid, signal.SIGKILL)
+                assert cut_off.result(30).status_code == 503
+                refused = other.http.get(kept)
+                assert (refused.status_code, refused.json()["code"]) == (503, "queue-unavailable")
+                assert int(refused.headers["Retry-After"]) >= 1
+                assert server.ended()
+                server.start()
+                assert other.http.get(kept).json()["status"] == "queued"
+                waiting = threads.submit(other.http.get, kept, headers={"Prefer": "wait=30"})
+                time.sleep(0.5)
+                assert other.http.delete(kept).json()["status"] == "cancelled"
+                assert waiting.result(10).json()["status"] == "cancelled"
+    finally:
+        server.stop()
