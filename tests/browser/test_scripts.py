@@ -151,7 +151,7 @@ def test_triangles_are_filled_without_seams_the_nearest_on_top_and_only_from_the
             const picture = { width: 40, height: 40, left: 3, low: 5,
                 colours: new Uint32Array(1600), depths: new Float32Array(1600).fill(1) };
             for (const [depth, shade, corners = [0, 1, 2, 0, 2, 3]] of squares) {
-                const at = [13, 15, depth, 33, 15, depth, 33, 35, depth, 13, 35, depth].map((value) => value + 0 * depth);
+                const at = [13, 15, depth, 33, 15, depth, 33, 35, depth, 13, 35, depth].map((n) => n + 0 * depth);
                 fill(picture, at, new Uint8Array(16).fill(shade), new Uint16Array(corners), 1);
             }
             const counts = {};
