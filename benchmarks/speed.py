@@ -38,11 +38,19 @@ DOCS = Path(__file__).parent.parent / "docs"
 TWIN_FRAMES = 320
 WHOLE_BYTES = 2**29
 """Room for every frame of a large mesh: what is copied must be as much as is measured."""
-QUICK_GROWTH = ((1_000, 5_000), (8_000, 5_000), (256, 20_000), (256, 80_000))
-GROWTH = (
-    *((frames, 5_000) for frames in (1_000, 4_000, 16_000, 64_000)),
-    *((256, triangles) for triangles in (5_000, 20_000, 100_000, 500_000)),
-)
+Sizes = tuple[tuple[int, int], ...]
+"""Frames and triangles."""
+
+QUICK_GROWTH: dict[str, Sizes] = {
+    "frames": ((1_000, 5_000), (8_000, 5_000)),
+    "triangles": ((256, 20_000), (256, 80_000)),
+}
+GROWTH: dict[str, Sizes] = {
+    "frames": tuple((frames, 5_000) for frames in (1_000, 4_000, 16_000, 64_000)),
+    "triangles": tuple((256, triangles) for triangles in (5_000, 20_000, 100_000, 500_000)),
+}
+ENOUGH = 30_000_000
+"""Triangle-frames that are measured at least, in as many turns as they take: the least of three short ones is luck."""
 
 
 class Row(NamedTuple):
@@ -121,26 +129,23 @@ def against_twin(turns: int) -> Iterator[Row]:
     yield Row("share of takes with the same peaks", float(same), least=1)
 
 
-def growth(sizes: tuple[tuple[int, int], ...], turns: int) -> tuple[list[Row], list[Series]]:
+def growth(lines: Mapping[str, Sizes], turns: int) -> tuple[list[Row], list[Series]]:
     """Time per triangle-frame as frames and triangles grow."""
-    points: dict[tuple[int, int], float] = {}
-    for frames, triangles in sizes:
-        tube = Tube.of(frames, triangles)
-        curve = Curve(tube.animation(frames))
-        if not points:
-            curve.energy()  # compiled code is loaded by the first, which is not what is measured
-        points[frames, triangles] = least({"curve": curve.energy}, turns)["curve"].busy / THREADS
-    per_value = {size: seconds / (size[0] * size[1]) * 1e9 for size, seconds in points.items()}
-    rows = [Row(f"ns a triangle-frame, {m:,} × {t:,}", cost) for (m, t), cost in per_value.items()]
-    series = []
-    for name, fixed in (("frames", 1), ("triangles", 0)):
-        line = [size for size in sizes if sum(size[fixed] == other[fixed] for other in sizes) > 1]
-        costs = [per_value[size] for size in line]
-        rows.append(
-            Row(f"largest over smallest time a triangle-frame, as {name} grow", max(costs) / min(costs), most=1.4)
-        )
-        series.append(Series(f"as {name} grow", [(size[0] * size[1], points[size]) for size in line]))
+    rows, series = [], []
+    for name, sizes in lines.items():
+        points = [(frames * triangles, seconds(frames, triangles, turns)) for frames, triangles in sizes]
+        costs = [point[1] / point[0] * 1e9 for point in points]
+        rows += [Row(f"ns a triangle-frame, {m:,} × {t:,}", cost) for (m, t), cost in zip(sizes, costs, strict=True)]
+        ratio = max(costs) / min(costs)
+        rows.append(Row(f"largest over smallest time a triangle-frame, as {name} grow", ratio, most=1.4))
+        series.append(Series(f"as {name} grow", points))
     return rows, series
+
+
+def seconds(frames: int, triangles: int, turns: int) -> float:
+    """Processor time of a curve, per thread."""
+    curve = Curve(Tube.of(frames, triangles).animation(frames))
+    return least({"curve": curve.energy}, max(turns, ENOUGH // (frames * triangles)))["curve"].busy / THREADS
 
 
 def skinned(turns: int) -> Iterator[Row]:
