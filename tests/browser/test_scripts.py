@@ -122,7 +122,8 @@ def test_a_name_is_shortened_to_what_there_is_room_for(answer) -> None:
 
 
 def test_a_second_around_a_cut_is_played_once_whatever_is_repeated(answer) -> None:
-    """It ends at the cut, also where every segment is repeated, and also if it is asked for while it plays."""
+    """It ends at the cut, also where every segment is repeated, if it is asked for while it plays, and if the cut has to
+    be fetched first."""
     seen = answer("""
         import { Clock } from 'VIEWER/clock.js';
         let now = 0;
@@ -137,10 +138,19 @@ def test_a_second_around_a_cut_is_played_once_whatever_is_repeated(answer) -> No
         for (let i = 0; i < 5; i++) step();
         clock.once(35, 65, 50);
         for (let i = 0; i < 60; i++) step();
-        console.log(JSON.stringify([told[0], told.at(-1), Math.max(...told.map(([frame]) => frame))]));
+        const most = Math.max(...told.map(([frame]) => frame));
+        let loaded = true;
+        const late = new Clock(100, 30, () => loaded);
+        late.once(35, 65, 50);
+        while (late.frame < 63) step();
+        loaded = false;
+        for (let i = 0; i < 9; i++) step();
+        loaded = true;
+        for (let i = 0; i < 9; i++) step();
+        console.log(JSON.stringify([told[0], told.at(-1), [late.frame, late.playing], most]));
     """)
-    assert seen[:2] == [[35, True], [50, False]]
-    assert 60 < seen[2] < 65
+    assert seen[:3] == [[35, True], [50, False], [50, False]]
+    assert 60 < seen[3] < 65
 
 
 def test_triangles_are_filled_without_seams_the_nearest_on_top_and_only_from_their_side(answer) -> None:

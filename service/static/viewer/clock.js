@@ -50,17 +50,20 @@ export class Clock {
     this.#last = now;
     const [start, end] = this.loop || [0, this.frames];
     let next = this.position + passed * this.rate * (this.until ? 1 : this.speed);
-    if (this.until && next >= this.until.end) {
+    const done = this.until && next >= this.until.end;
+    if (done) {
       next = this.until.rest;
       this.playing = false;
-      this.until = null;
     } else if (next >= end - (this.loop ? 0 : 1)) {
       if (this.loop) next = start + ((next - start) % Math.max(1, end - start));
       else { next = this.frames - 1; this.playing = false; }
     }
     this.held = !this.ready(Math.floor(next));
-    if (!this.held) this.position = next;
-    else this.playing = true;
+    if (this.held) this.playing = true;
+    else {
+      this.position = next;
+      if (done) this.until = null;
+    }
     this.tell();
     if (this.playing) requestAnimationFrame((later) => this.#tick(later));
   }
