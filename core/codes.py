@@ -57,7 +57,8 @@ class Coding:
         self, values: Float32[np.ndarray, "columns frames"], codes: UInt16[np.ndarray, "frames _"], at: int
     ) -> None:
         """Write the codes of values ≥ 0 as columns `at` and on of `codes`."""
-        encode(values.view(np.int32), values.shape[1], self.lowest, codes, at)
+        in_rows = np.ascontiguousarray(values)
+        encode(in_rows.view(np.int32), values.shape[1], self.lowest, codes, at)
 
     @property
     def lowest(self) -> np.int32:

@@ -11,6 +11,7 @@ import numpy as np
 from llvmlite import ir
 from numba import njit, types
 from numba.core import cgutils
+from numba.core.errors import TypingError
 from numba.extending import intrinsic
 
 from core.kernels import SHIFT, Bits, Codes, code_of
@@ -39,6 +40,8 @@ def _turned(builder: Any, rows: list[Any]) -> list[Any]:
 
 def _encode_eight(_: Any, tile: Any, _triangle: Any, _frame: Any, _lowest: Any, codes: Any, _column: Any) -> Any:
     """Says to numba, which asks with its own types, what `encode_eight` takes and which instructions it is."""
+    if tile.layout != "C" or codes.layout != "C":
+        raise TypingError("Eights are read and written at once, so they must lie one after the other in their rows.")
 
     def generate(context: Any, builder: Any, signature: Any, given: Any) -> Any:
         source, target = (context.make_array(signature.args[i])(context, builder, given[i]) for i in (0, 4))

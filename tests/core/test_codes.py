@@ -64,11 +64,13 @@ def test_edges_of_bins_are_in_their_place_to_an_eight_thousandth(levels):
         assert (coding.encode(around) > edge).tolist() == [[False, True]]
 
 
+@pytest.mark.parametrize("order", ["C", "F"])
 @pytest.mark.parametrize("shape", [(1, 1), (8, 8), (13, 64), (64, 5), (30, 27)])
-def test_codes_kept_in_rows_of_triangles_are_the_same_codes(shape):
-    """Wherever they begin in a row, whether or not eights go into their number; nothing beside them is touched."""
+def test_codes_kept_in_rows_of_triangles_are_the_same_codes(shape, order):
+    """Wherever they begin in a row, however values lie, whether or not eights go into their number; nothing beside
+    them is touched."""
     coding, at = Coding(1.0), 3
-    values = np.random.default_rng(0).gamma(1.0, 2.0, shape).astype(np.float32)
+    values = np.random.default_rng(0).gamma(1.0, 2.0, shape).astype(np.float32, order=order)
     values[0, 0] = 0
     found = np.full((shape[1], at + shape[0] + 2), 7, np.uint16)
     coding.turn(values, found, at)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from core.animation import Animation, Take
+from core.body import Body
 from core.descriptors.projection import sample_frames
 from core.errors import InvalidModel
 from core.glance import FRAMES
@@ -63,3 +64,18 @@ def test_no_bin_is_lost_where_strain_is_in_a_place_that_was_not_looked_at(strain
     found = analyse(animation, Parameters(normalize=normalize, window_seconds=0.07, rest="bind"))
     expected = oracles.energy(oracles.bins(strains, found.strain_scale, 10), 10, 2)
     np.testing.assert_allclose(found.energy, expected, atol=1e-3)
+
+
+def test_points_without_a_mesh_have_the_energy_of_their_pairs() -> None:
+    """The strains that are counted are those of each pair in each frame."""
+    draw = np.random.default_rng(0)
+    rest = draw.random((24, 3)).astype(np.float32)
+    steps = draw.normal(0, 0.02, (100, 24, 3)).cumsum(axis=0)
+    moved = np.asarray(rest + steps, np.float32)
+    take = Take(0, "", 100 / 30, 100, 30.0)
+    points = Animation(lambda a, b: moved[a:b], 24, np.zeros((0, 3), np.int64), rest, 100, 30.0, take)
+    body, _ = Body.of(points, rest, Parameters())
+    [(_, strains)] = body.surface.tiles(moved)
+    found = analyse(points, Parameters(window_seconds=0.1, rest="bind"))
+    expected = oracles.energy(oracles.bins(strains.T, found.strain_scale, 10), 10, 3)
+    np.testing.assert_allclose(found.energy, expected, atol=1e-2)
