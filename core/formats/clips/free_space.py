@@ -37,18 +37,16 @@ def free_ranges(json: dict[str, Any], freed: Iterable[int], windows: Iterable[di
     accessors: list[dict[str, Any]] = json.get("accessors", [])
     gone = [accessors[number] for number in freed]
     kept = [accessor for number, accessor in enumerate(accessors) if number not in freed]
-    touched = {view for accessor in gone for view, _, _ in places(accessor)}
-    opaque = touched & _opaque_views(json)
     views = json.get("bufferViews", [])
-    free = [
-        r
-        for a in gone
-        for view, start, size in places(a)
-        if view not in opaque
-        for r in [_at(views, view, start, size)]
-    ]
-    used = [r for a in [*kept, *windows] for view, start, size in places(a) for r in [_at(views, view, start, size)]]
-    used += [r for number in set(range(len(views))) - touched | opaque for r in whole_view(views[number])]
+    looked_into = {view for accessor in gone for view, _, _ in places(accessor)} - _opaque_views(json)
+
+    def ranges(named: Iterable[dict[str, Any]]) -> list[Range]:
+        found = (place for accessor in named for place in places(accessor))
+        return [_at(views, view, start, size) for view, start, size in found if view in looked_into]
+
+    used = ranges([*kept, *windows])
+    used += [r for number in set(range(len(views))) - looked_into for r in whole_view(views[number])]
+    free = ranges(gone)
     return list(without(joined(free), joined(used)))
 
 
