@@ -29,7 +29,7 @@ class Strip:
 
     def packed(self) -> bytes | None:
         """Compressed, where it is worth it."""
-        if self.stride % 4 or len(self.data) % self.stride:
+        if not self.data or self.stride % 4 or len(self.data) % self.stride:
             return None
         stream = encoded(np.frombuffer(self.data, np.uint8).reshape(-1, self.stride)).tobytes()
         return stream if len(stream) + JSON_BYTES < len(self.data) else None

@@ -16,6 +16,9 @@ from core.formats.gltf.document import COMPRESSED
 UNUSED = {"componentType": 5126, "count": 1, "type": "SCALAR"}
 """What stands in the place of an accessor that is gone, so that the numbers of the others stay."""
 
+Packed = tuple[Strip, bytes]
+"""Arrays one after the other, and what they are compressed."""
+
 
 @dataclass(frozen=True)
 class NewAccessor:
@@ -95,19 +98,35 @@ def _put_compressed(
     chunk: BinaryChunk, views: _Views, compression: Compression, arrays: list[NewAccessor]
 ) -> list[NewAccessor]:
     """Arrays as one view, or as several where there is room for a part of them; back come those not worth it."""
+    while (whole := _packed(arrays)) is not None:
+        strip, stream = _fitting(chunk.roomiest, arrays, whole)
+        room, offset = chunk.put(stream, len(stream))
+        number = views.add(compression.view(strip, room.start + offset, len(stream)))
+        for accessor, start in zip(arrays, strip.offsets, strict=False):  # the strip may be of the first of them
+            _name(accessor, number, start)
+        arrays = arrays[len(strip.offsets) :]
+    return arrays
+
+
+def _fitting(room: int, arrays: list[NewAccessor], whole: Packed) -> Packed:
+    """The first of the arrays, as many as fit into so many bytes; all where so few would not be worth it."""
+    part = whole
+    while WORTH < room < len(part[1]):
+        strip, stream = part
+        fewer = _packed(arrays[: int(0.95 * len(strip.offsets) * room / len(stream))])
+        if fewer is None:
+            return whole
+        part = fewer
+    return part
+
+
+def _packed(arrays: list[NewAccessor]) -> Packed | None:
+    """The arrays as a strip, and its stream; None where there are none, or it is not worth it."""
+    if not arrays:
+        return None
     strip = Strip([accessor.data or b"" for accessor in arrays], arrays[0].row)
     stream = strip.packed()
-    if stream is None:
-        return arrays
-    some = min(int(0.95 * len(arrays) * chunk.roomiest / len(stream)), len(arrays) - 1)
-    if WORTH < chunk.roomiest < len(stream) and some:
-        parts = arrays[:some], arrays[some:]
-        return [left for part in parts for left in _put_compressed(chunk, views, compression, part)]
-    room, offset = chunk.put(stream, len(stream))
-    number = views.add(compression.view(strip, room.start + offset, len(stream)))
-    for accessor, start in zip(arrays, strip.offsets, strict=True):
-        _name(accessor, number, start)
-    return []
+    return None if stream is None else (strip, stream)
 
 
 def _in_room(chunk: BinaryChunk, views: _Views, accessor: NewAccessor) -> tuple[int, int]:

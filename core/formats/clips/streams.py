@@ -57,7 +57,7 @@ def _shorter(stream: Stream, accessors: Accessors, kept: list[Range]) -> Iterato
         yield stream
         return
     elements = accessors.coded(stream.view)
-    if elements is None:
+    if elements is None or not len(elements):
         return
     stride = elements.shape[1]
     named = np.zeros(len(elements), bool)

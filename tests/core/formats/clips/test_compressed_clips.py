@@ -3,6 +3,12 @@
 import numpy as np
 import pytest
 
+from core.formats.clips.free_space import free_ranges
+from core.formats.clips.placement import UNUSED, NewAccessor, placed
+from core.formats.clips.self_contained import SelfContained
+from core.formats.gltf.accessors import Accessors
+from core.formats.gltf.document import Document
+from core.limits import Limits
 from tests.core.formats.clips.compressing import EXTENSION, bytes_of, compressed, streams_of
 from tests.core.formats.clips.making import chunks_of, clips_of, cut_at, worst_miss
 from tests.core.formats.clips.test_clip_sizes import CLOSE, CUTS, swaying
@@ -79,3 +85,25 @@ def test_a_file_that_can_be_read_without_the_codec_still_can():
             views = [root["bufferViews"][root["accessors"][number]["bufferView"]] for number in sampler.values()]
             assert all(view["buffer"] == 0 and "extensions" not in view for view in views)
     assert worst_miss(opened(data, fps=29), glb, document) <= CLOSE
+
+
+def test_room_for_so_few_that_they_are_not_worth_it_is_left():
+    """Of thousands of short, noisy arrays a few go into the room that is left only where that saves something."""
+    model = compressed(swaying(LONG))
+    freed = model.accessor(np.zeros(300))
+    model.accessor(np.zeros(300))
+    model.json["buffers"][0]["byteLength"] = len(model.binary)
+    view = model.json["bufferViews"][model.json["accessors"][freed]["bufferView"]]
+    room = view["byteOffset"], view["byteOffset"] + view["byteLength"]
+    assert free_ranges(model.json, [freed], []) == [room]  # though in the stand-in others lie there
+    document = Document(memoryview(model.glb()), {}, Limits.none())
+    noise = np.random.default_rng(0).integers(0, 256, (2000, 30, 16), np.uint8)
+    noise[:, :, ::8] = 0
+    first = len(model.json["accessors"])
+    about = {"componentType": 5126, "count": 30, "type": "VEC4"}
+    new = [NewAccessor(first + n, dict(about), keys.tobytes(), 16) for n, keys in enumerate(noise)]
+    file = SelfContained(document)
+    file.json["accessors"] += [UNUSED] * len(new)
+    chunk = placed(file, Accessors(document), [freed], new)
+    assert len({accessor.json["bufferView"] for accessor in new}) == 1
+    assert chunk.length < len(model.binary) + 0.95 * noise.size

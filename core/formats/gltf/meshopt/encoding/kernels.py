@@ -16,7 +16,7 @@ exact = njit(nogil=True, cache=True)
 
 @exact
 def encoded(elements: Bytes) -> Bytes:
-    """A stream of elements (count, stride); the stride is a multiple of 4 up to 256."""
+    """A stream of elements (count, stride), one at least; the stride is a multiple of 4 up to 256."""
     count, stride = elements.shape
     most = min((BLOCK_BYTES // stride) & ~(GROUP - 1), MOST_ELEMENTS)
     blocks = (count + most - 1) // most
