@@ -9,6 +9,7 @@ from typing import Any
 import click
 
 from core.document import SegmentationDocument
+from core.errors import CaesuraError
 from core.formats.clips.options import ClipOptions
 from service.commands.buffers import scratch
 from service.elan import segments_eaf
@@ -99,16 +100,28 @@ class Outputs:
                 raise click.UsageError(
                     f"With --out, {flag} takes no name. Put it after the files, or before an option."
                 )
-            forms[form] = None if given == UNNAMED else Path(given)
+            forms[form] = None if given == UNNAMED else _place(flag, Path(given), forms.values())
+        if options.model_fields_set and "clips" not in forms:
+            flag = f"--{min(options.model_fields_set).replace('_', '-')}"
+            raise click.UsageError(f"{flag} says how clips are made: it needs --clips beside it.")
         return cls(forms, options)
 
     def write(self, parts: Parts, found: SegmentationDocument, target: Path | None) -> None:
-        """Every form that was asked for; into a folder also the document, first."""
+        """Every form that was asked for; into a folder also the document, first.
+
+        A form that this result has not, such as key poses of a short take, is refused after the others are written.
+        """
+        refused: list[CaesuraError] = []
         if target is not None:
             target.parent.mkdir(parents=True, exist_ok=True)
             self._one(DOCUMENT, parts, found, target, None)
         for form, path in self.forms.items():
-            self._one(FORMS[form][0], parts, found, target, path)
+            try:
+                self._one(FORMS[form][0], parts, found, target, path)
+            except CaesuraError as missing:
+                refused.append(missing)
+        if refused:
+            raise refused[0]
 
     def _one(
         self, write: Write, parts: Parts, found: SegmentationDocument, target: Path | None, path: Path | None
@@ -117,12 +130,31 @@ class Outputs:
         _save(path or (target or Path()).with_name(f"{(target or Path()).name}{suffix}"), pieces)
 
 
+def _place(flag: str, path: Path, taken: Iterable[Path | None]) -> Path:
+    """The path, where it can be written and no other form goes there; else `UsageError`, before the long work."""
+    if not path.parent.is_dir():
+        raise click.UsageError(f"There is no folder '{path.parent}' for {flag}: make it first.")
+    if path.is_dir():
+        raise click.UsageError(f"'{path}' is a folder: {flag} needs the name of a file.")
+    if any(other is not None and other.resolve() == path.resolve() for other in taken):
+        raise click.UsageError(f"'{path}' is named twice: {flag} needs a file of its own.")
+    return path
+
+
 def _save(path: Path, pieces: Iterable[bytes]) -> None:
-    """Write it aside, then to its name: it is whole or not there, and may replace the file that it is made of."""
-    aside = path.with_name(f".{path.name}.part")
+    """Write it aside, then to its name: it is whole or not there, and may replace the file that it is made of.
+
+    A link is followed; a device or a pipe, such as /dev/stdout, is written to and stays what it is.
+    """
+    if path.exists() and not path.is_file():
+        with path.open("wb") as file:
+            file.writelines(pieces)
+        return
+    place = path.resolve()
+    aside = place.with_name(f".{place.name}.part")
     try:
         with aside.open("wb") as file:
             file.writelines(pieces)
-        aside.replace(path)
+        aside.replace(place)
     finally:
         aside.unlink(missing_ok=True)

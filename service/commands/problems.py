@@ -52,7 +52,12 @@ class Command(click.Command):
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run; a refusal that the command does not handle itself ends it here."""
+        as_json = ctx.params.get("as_json", False)
         try:
             return super().invoke(ctx)
+        except click.UsageError as refused:
+            if not as_json:
+                raise
+            ctx.exit(show({"kind": "usage", "code": "usage", "detail": refused.format_message()}, as_json=True))
         except CaesuraError as refused:
-            ctx.exit(show(refused.problem(), as_json=ctx.params.get("as_json", False)))
+            ctx.exit(show(refused.problem(), as_json=as_json))

@@ -85,6 +85,10 @@ def test_a_folder_that_cannot_be_written_is_said(takes):
         (["monday/*.npz", "--csv", "one.csv"], "--csv names one file"),
         (["monday/walk.npz", "--out", "out", "--clips", "c.zip"], "With --out, --clips takes no name"),
         (["--out", "out", "--clips", "monday/walk.npz", "monday/z→.npz"], "With --out, --clips takes no name"),
+        (["monday/walk.npz", "--csv", "nowhere/one.csv"], "There is no folder 'nowhere' for --csv"),
+        (["monday/walk.npz", "--csv", "tuesday"], "'tuesday' is a folder"),
+        (["monday/walk.npz", "--csv", "one", "--vtt", "./one"], "'one' is named twice"),
+        (["monday/walk.npz", "--discard", "A", "--csv", "one.csv"], "--discard says how clips are made"),
     ],
 )
 def test_wrong_usage_is_said_before_anything_is_computed(takes, monkeypatch, arguments, said):
@@ -93,6 +97,36 @@ def test_wrong_usage_is_said_before_anything_is_computed(takes, monkeypatch, arg
     run = CliRunner().invoke(main, ["segment", *arguments])
     assert run.exit_code == 2
     assert said in run.output
+
+
+def test_wrong_usage_that_several_options_make_is_json_too(takes, monkeypatch):
+    """With `--json` a program reads what is wrong, wherever it is noticed."""
+    monkeypatch.chdir(takes)
+    run = CliRunner().invoke(main, ["segment", "monday/walk.npz", "--loop", "A", "--json"])
+    assert run.exit_code == 2
+    assert json.loads(run.stderr)["code"] == "usage"
+
+
+def test_a_form_that_a_result_has_not_does_not_cost_the_others(takes):
+    """No window fits into one second: there are no key-frames, but all else is written."""
+    forms = ["--keyframes", "--csv", "--plot"]
+    run = caesura(takes, "segment", "monday/walk.npz", "--out", "some", "--end", "1", *forms)
+    assert run.returncode == 3
+    assert "[no-key-frames]" in run.stderr
+    assert sorted(path.name for path in (takes / "some").iterdir()) == ["walk.csv", "walk.json", "walk.svg"]
+
+
+def test_pipes_and_links_stay_what_they_are(takes):
+    """What is written to a pipe goes through it, and what is written to a link goes to the file that it names."""
+    os.mkfifo(takes / "pipe")
+    (takes / "link").symlink_to("linked.vtt")
+    with subprocess.Popen(["cat", takes / "pipe"], stdout=subprocess.PIPE) as reader:
+        run = caesura(takes, "segment", "monday/walk.npz", "--csv", "pipe", "--vtt", "link")
+        assert run.returncode == 0, run.stderr
+        assert reader.communicate(timeout=30)[0].startswith(b"name,motion")
+    assert (takes / "pipe").is_fifo()
+    assert (takes / "link").is_symlink()
+    assert (takes / "linked.vtt").read_text().startswith("WEBVTT")
 
 
 def test_results_of_two_files_never_share_a_name(tmp_path):
