@@ -142,6 +142,27 @@ def test_different_takes_are_not_compared(folder: Path, tmp_path: Path) -> None:
     assert json.loads(run.stderr)["code"] == "different-frames"
 
 
+@pytest.mark.parametrize(
+    "content",
+    [
+        '{"fps": 30, "frames": 0, "segments": []}',
+        '{"fps": 9, "frames": 5, "segments": [{"label": 1, "start": 0, "end": 9}, {"label": 2, "start": 9, "end": 5}]}',
+        '{"fps": 30, "frames": 1e999, "segments": [{"label": 1, "start": 0, "end": 1e999}]}',
+        '{"fps": NaN, "frames": 5, "segments": [{"label": 1, "start": 0, "end": 5}]}',
+        "[" * 100_000,
+        b"glTF\xf4" * 1000,
+    ],
+)
+def test_what_is_no_labelling_is_said_in_a_sentence(tmp_path: Path, content: str | bytes) -> None:
+    """Neither a traceback nor the whole file: its name, and what is wrong with it."""
+    wrong = tmp_path / "wrong.json"
+    wrong.write_bytes(content if isinstance(content, bytes) else content.encode())
+    run = caesura("score", wrong, wrong)
+    assert run.returncode == 3
+    assert "[not-a-labelling]" in run.stderr
+    assert len(run.stderr) < 400
+
+
 @pytest.mark.parametrize("name", ["page.glb", "empty.glb"])
 def test_a_bad_file_is_a_problem(folder: Path, name: str) -> None:
     """Exit code 3, nothing on stdout, and on stderr the problem and the file it is about."""

@@ -1,6 +1,7 @@
 """Who does what when: a segmentation or a truth as labels of frames, and how well two of them agree."""
 
 import json
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -24,13 +25,15 @@ class Labelling:
         try:
             with path.open(encoding="utf-8") as file:
                 return cls.of(json.load(file))
-        except (ValueError, KeyError, TypeError, AttributeError) as wrong:
-            detail = f"{path} is neither a segmentation document nor a truth: {wrong!r}."
+        except (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError) as wrong:
+            # Of text that is none, repr would show all of it.
+            said = str(wrong) if isinstance(wrong, ValueError) else repr(wrong)
+            detail = f"{path} is neither a segmentation document nor a truth: {said}."
             raise InvalidModel("not-a-labelling", detail) from None
 
     @classmethod
     def of(cls, document: dict[str, Any]) -> "Labelling":
-        """The labelling that a parsed document states; raises ValueError where its segments do not tile."""
+        """The labelling that a parsed document states; raises ValueError where its segments do not tile it."""
         segments = tuple(
             (int(s["start"]), int(s["end"]), str(s["motion"] if "motion" in s else s["label"]))
             for s in document["segments"]
@@ -38,8 +41,12 @@ class Labelling:
         bounds = [0] + [end for _, end, _ in segments]
         if [start for start, _, _ in segments] != bounds[:-1] or bounds[-1] != int(document["frames"]):
             raise ValueError("the segments do not tile its frames")
-        rate = document["frame_rate"] if "frame_rate" in document else document["fps"]
-        return cls(float(rate), int(document["frames"]), segments)
+        if not segments or any(start >= end for start, end, _ in segments):
+            raise ValueError("it has no segments, or some without frames")
+        rate = float(document["frame_rate"] if "frame_rate" in document else document["fps"])
+        if not (math.isfinite(rate) and rate > 0):
+            raise ValueError(f"{rate:g} frames a second are no frame rate")
+        return cls(rate, int(document["frames"]), segments)
 
 
 def agreement(found: Labelling, truth: Labelling) -> dict[str, float]:
