@@ -122,8 +122,8 @@ def test_a_name_is_shortened_to_what_there_is_room_for(answer) -> None:
 
 
 def test_a_second_around_a_cut_is_played_once_whatever_is_repeated(answer) -> None:
-    """It ends at the cut, also where every segment is repeated, if it is asked for while it plays, and if the cut has to
-    be fetched first."""
+    """It ends at the cut, also where every segment is repeated, if it is asked for while it plays, and if the cut
+    has to be fetched first."""
     seen = answer("""
         import { Clock } from 'VIEWER/clock.js';
         let now = 0;
