@@ -21,7 +21,7 @@ export const colourOf = (motion) => COLOURS[motion % COLOURS.length];
 export const inkOn = (hex) => (luminance(hex) > 0.179 ? '#14161a' : '#ffffff');
 
 /** Which texture goes over the colour: 0 none, 1 stripes, 2 dots, 3 both ways striped, then again. */
-export const textureOf = (motion) => Math.floor(motion / COLOURS.length) % 4;
+const textureOf = (motion) => Math.floor(motion / COLOURS.length) % 4;
 
 const tiles = new Map();
 

@@ -6,7 +6,7 @@
 const LETTERS = 26;
 
 /** The same segments with motions numbered in order of first appearance, as the service numbers them. */
-export function renumbered(segments) {
+function renumbered(segments) {
   const numbers = new Map();
   for (const { motion } of segments) if (!numbers.has(motion)) numbers.set(motion, numbers.size);
   return segments.map((segment) => ({ ...segment, motion: numbers.get(segment.motion) }));
