@@ -9,6 +9,7 @@ import pytest
 
 from samples.figures import figure
 from service.commands.local_service import local_service
+from tests.installation import take_npz
 
 
 def example(checkout: Path, name: str, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
@@ -50,11 +51,15 @@ def test_a_pipeline_engineer_gets_documents_and_clips(
 ) -> None:
     """Through a running service; a bad file is said, and does not stop the rest."""
     (tmp_path / "page.glb").write_text("<html>404</html>")
+    (tmp_path / "marche & saut é.npz").write_bytes(take_npz((0, 1, 0)))
     monkeypatch.setenv("CAESURA_DATA_DIR", str(tmp_path / "data"))
     monkeypatch.delenv("REDIS_URL", raising=False)
     with local_service(0) as url:
-        run = example(checkout, "pipeline_engineer", url, tmp_path / "out", tmp_path / "page.glb", take)
+        takes = [tmp_path / "page.glb", take, tmp_path / "marche & saut é.npz"]
+        run = example(checkout, "pipeline_engineer", url, tmp_path / "out", *takes)
     assert run.returncode == 1, run.stderr
     assert "page.glb: " in run.stderr
+    assert "robot.glb: 6 motions in 9 segments\n" in run.stdout
     assert json.loads((tmp_path / "out" / "robot.json").read_text())["motions"] == 6
     assert (tmp_path / "out" / "robot.clips.glb").read_bytes().startswith(b"glTF")
+    assert (tmp_path / "out" / "marche & saut é.clips.zip").read_bytes().startswith(b"PK")

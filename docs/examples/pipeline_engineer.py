@@ -13,6 +13,7 @@ import time
 from pathlib import Path
 from typing import Any
 from urllib.error import HTTPError
+from urllib.parse import quote
 from urllib.request import Request, urlopen
 
 PATIENCE_SECONDS = 30  # a request waits so long at the service before it is asked again
@@ -39,7 +40,7 @@ def ask(method: str, url: str, body: Any = None, length: int = 0) -> tuple[int, 
 def segment(service: str, take: Path, motions: str = "auto") -> dict[str, Any]:
     """Upload, wait, and answer the status document once it is done; raises HTTPError with the problem."""
     with take.open("rb") as file:
-        url = f"{service}/v1/segmentations?motions={motions}&name={take.name}"
+        url = f"{service}/v1/segmentations?motions={motions}&name={quote(take.name)}"
         _, content = ask("POST", url, file, take.stat().st_size)
     status: dict[str, Any] = json.loads(content)
     while status["status"] in ("queued", "running"):
@@ -47,12 +48,12 @@ def segment(service: str, take: Path, motions: str = "auto") -> dict[str, Any]:
     return status
 
 
-def fetch(service: str, status: dict[str, Any], what: str, target: Path) -> None:
-    """Save one file of a result; one that is made at the first request answers 202 until it is there."""
+def fetch(service: str, status: dict[str, Any], what: str) -> bytes:
+    """One file of a result; one that is made at the first request answers 202 until it is there."""
     code = 202
     while code == 202:
         code, content = ask("GET", f"{service}/v1/segmentations/{status['id']}/{what}")
-    target.write_bytes(content)
+    return content
 
 
 def main(service: str, out: Path, takes: list[Path]) -> int:
@@ -62,9 +63,10 @@ def main(service: str, out: Path, takes: list[Path]) -> int:
     for take in takes:
         try:
             status = segment(service, take)
-            fetch(service, status, "result", out / f"{take.stem}.json")
-            fetch(service, status, "clips", out / f"{take.stem}.clips{take.suffix}")
-            print(f"{take}: {status['motions']} motions in {status['segments']} segments")
+            (out / f"{take.stem}.json").write_bytes(fetch(service, status, "result"))
+            clips = fetch(service, status, "clips")  # a GLB of a glTF too; a zip of a vertex sequence
+            (out / f"{take.stem}.clips{'.glb' if clips.startswith(b'glTF') else '.zip'}").write_bytes(clips)
+            print(f"{take}: {status['motions']} motions in {len(status['segments'])} segments")
         except HTTPError as refused:
             failed = 1
             print(f"{take}: {json.loads(refused.read())['detail']}", file=sys.stderr)
