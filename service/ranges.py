@@ -53,11 +53,17 @@ def caching(etag: str) -> dict[str, str]:
     return {"ETag": etag, "Cache-Control": "private, no-cache"}
 
 
+def attachment(filename: str) -> str:
+    """The header that names a download, in plain letters too: curl reads no `filename*`."""
+    plain = re.sub(r"[^A-Za-z0-9 ._()+-]", "_", filename)
+    return f"attachment; filename=\"{plain}\"; filename*=UTF-8''{quote(filename)}"
+
+
 def stored_response(request: Request, blobs: Blobs, stored: Stored) -> Response:
     """The blob, or the range of it that was asked for, or 304."""
     headers = caching(stored.etag) | {
         "Accept-Ranges": "bytes",
-        "Content-Disposition": f"attachment; filename*=UTF-8''{quote(stored.filename)}",
+        "Content-Disposition": attachment(stored.filename),
     }
     if not_modified(request, stored.etag):
         return Response(status_code=304, headers=headers)

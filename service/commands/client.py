@@ -31,10 +31,10 @@ class Refused(CaesuraError):
 
 
 class Client:
-    """One service. Close it, or use it as a context."""
+    """One service; an address without a scheme is http, as for curl. Close it, or use it as a context."""
 
     def __init__(self, url: str, key: str = "") -> None:
-        self.url = url.rstrip("/")
+        self.url = (url if "://" in url else f"http://{url}").rstrip("/")
         self._http = httpx.Client(
             headers={"Authorization": f"Bearer {key}"} if key else {},
             base_url=self.url,

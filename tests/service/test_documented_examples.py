@@ -111,4 +111,5 @@ def test_every_example_runs(service, page, folder):
         run = subprocess.run(["bash", "-c", command], cwd=folder, check=False, capture_output=True, timeout=60)
         assert run.returncode == 0, (example, run.stdout[:500], run.stderr)
     assert (folder / "clips.glb").read_bytes().startswith(b"glTF")
+    assert (folder / "animation-clips.glb").is_file(), "curl -O -J does not call the clips by their name"
     assert (folder / "plot.png").read_bytes().startswith(b"\x89PNG")

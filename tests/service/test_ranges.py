@@ -3,7 +3,7 @@
 import pytest
 
 from service.errors import Refusal
-from service.ranges import requested
+from service.ranges import attachment, requested
 
 
 @pytest.mark.parametrize(
@@ -33,3 +33,8 @@ def test_a_range_that_holds_nothing_is_refused(header):
     """It would be an empty answer that looks like success."""
     with pytest.raises(Refusal, match="range-not-satisfiable"):
         requested(header, 100)
+
+
+def test_a_download_has_a_name_for_every_client():
+    """In letters that end no header and lead into no folder, for those that read nothing else; and as it is."""
+    assert attachment('été/".glb') == "attachment; filename=\"_t___.glb\"; filename*=UTF-8''%C3%A9t%C3%A9/%22.glb"
