@@ -60,8 +60,9 @@ def test_zooming_keeps_the_frame_under_the_pointer_and_the_take_in_view(answer) 
 
 
 def test_two_fingers_keep_the_frames_under_them(answer) -> None:
-    """Apart they zoom in, aside they move; one finger alone, or two on the same place, change nothing."""
-    seen = answer("""
+    """Apart they zoom in, aside they move; one finger alone, or two on the same place, change nothing; of three, the
+    outer ones count."""
+    on, seen = answer("""
         import { Pinch } from 'VIEWER/pinch.js';
         import { Span } from 'VIEWER/span.js';
         const span = new Span(1000);
@@ -74,8 +75,11 @@ def test_two_fingers_keep_the_frames_under_them(answer) -> None:
         pinch.move(1, 0.1); pinch.move(2, 0.7); note();
         pinch.move(1, 0.7); note();
         pinch.release(1); pinch.move(2, 0.2); note();
-        console.log(JSON.stringify(seen));
+        pinch.press(1, 0.8); pinch.press(3, 0.5); pinch.move(1, 0.6); note();
+        console.log(JSON.stringify([pinch.on, seen]));
     """)
+    assert on
+    assert seen.pop() == [200, 950]
     assert seen[:2] == [[0, 1000], [0, 1000]]
     assert seen[2] == [200, 700]  # frames 300 and 600 at 0.2 and 0.8 of the width
     assert seen[3] == [250, 750]

@@ -7,7 +7,7 @@ export class Pinch {
 
   constructor(span) { this.#span = span; }
 
-  get on() { return this.#fingers.size === 2; }
+  get on() { return this.#fingers.size > 1; }
 
   /** A finger comes down at a share of the width: from now on each holds the frame it is on. */
   press(id, share) {
@@ -21,7 +21,8 @@ export class Pinch {
     if (!finger) return;
     finger.share = share;
     if (!this.on) return;
-    const [left, right] = [...this.#fingers.values()].sort((one, other) => one.share - other.share);
+    const fingers = [...this.#fingers.values()].sort((one, other) => one.share - other.share);
+    const [left, right] = [fingers[0], fingers.at(-1)]; // of three, the outer ones
     if (right.share - left.share < CLOSE || right.frame <= left.frame) return;
     const length = (right.frame - left.frame) / (right.share - left.share);
     const from = left.frame - left.share * length;
