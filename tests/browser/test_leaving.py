@@ -78,3 +78,16 @@ def test_no_longer_waiting_for_a_finished_result_does_not_delete_it(page: Page, 
     page.locator("#waiting-cancel").click()
     expect(page.locator("#drop")).to_be_visible()
     assert page.request.get(f"/v1/segmentations/{identifier}").json()["status"] == "done"
+
+
+def test_a_figure_that_is_still_prepared_is_not_asked_for_by_who_has_left(page: Page, own: Path) -> None:
+    """What is said on the stage is then said of another take."""
+    identifier = opened(page, own).partition("/view/")[2].partition("#")[0]
+    problem = {"code": "not-finished", "detail": "It is prepared.", "status": 409}
+    page.route("**/viewer", lambda route: route.fulfill(status=409, json=problem))
+    page.goto(f"/view/{identifier}")
+    expect(page.locator("#stage-note")).to_have_text("The figure is still being prepared.")
+    page.evaluate("history.pushState(null, '', '/'); dispatchEvent(new PopStateEvent('popstate'))")
+    expect(page.locator("#drop")).to_be_visible()
+    page.wait_for_timeout(2000)  # it would be asked for again after 1.5 s
+    expect(page.locator("#stage-note")).to_have_text("The figure is still being prepared.")

@@ -13,13 +13,13 @@ const SOON = 1500; // ms until it is asked again whether the figure is prepared
 let stage = null; // one for the page: a browser gives out few WebGL contexts
 
 export class Presence {
-  #signal; #moments = () => []; #wanted = 0; #late = 0; #here = false; #look = 'strain';
+  #signal; #moments = () => []; #wanted = 0; #late = 0; #again = 0; #here = false; #look = 'strain';
 
   /** `moments()` lists what to show: one `{ position, motion }`, or two side by side. */
   constructor(moments, signal) {
     this.#moments = moments;
     this.#signal = signal;
-    signal.addEventListener('abort', () => { this.#here = false; stage?.clear(); });
+    signal.addEventListener('abort', () => this.#leave());
   }
 
   get stage() { return this.#here ? stage : null; }
@@ -50,7 +50,7 @@ export class Presence {
       if (this.#signal.aborted) return;
       const soon = problem.document?.code === 'not-finished';
       this.tell(soon ? 'The figure is still being prepared.' : `The figure cannot be shown: ${problem.message}`);
-      if (soon) setTimeout(() => this.enter(id), SOON);
+      if (soon) this.#again = setTimeout(() => this.enter(id), SOON);
     }
   }
 
@@ -89,6 +89,15 @@ export class Presence {
   #arriving(share) {
     const sentence = `Loading the figure … ${Math.round(100 * share)} %`;
     if ($('stage-note').textContent !== sentence) this.tell(sentence);
+  }
+
+  /** Say and ask nothing more: the stage is another's. */
+  #leave() {
+    this.#here = false;
+    this.#wanted++;
+    clearTimeout(this.#late);
+    clearTimeout(this.#again);
+    stage?.clear();
   }
 
   #arrived() {
