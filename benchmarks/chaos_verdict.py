@@ -50,7 +50,7 @@ def verdict(house: House, expected: int, seen: Seen, quiet: Seen | None) -> Verd
     said.retried = sum(
         record.attempt - 1
         for identifier, _, _ in seen.results.values()
-        if (record := jobs.records.segmentation(identifier)) is not None
+        if (record := jobs.records.segmentations.one(identifier)) is not None
     )
     said.none("leftover files", _leftover(house, jobs, said))
     said.none("orphan processes", [str(pid) for pid in house.stop()])
@@ -60,9 +60,9 @@ def verdict(house: House, expected: int, seen: Seen, quiet: Seen | None) -> Verd
 def _stuck(jobs: Jobs, expected: int, seen: Seen) -> list[str]:
     """What was never done, and what is still on its way when it should long be quiet."""
     deadline = time.monotonic() + QUIET_SECONDS
-    while (jobs.records.live() or any(jobs.depths().values())) and time.monotonic() < deadline:
+    while (jobs.records.segmentations.live() or any(jobs.depths().values())) and time.monotonic() < deadline:
         time.sleep(0.2)
-    live = [f"{record.id} is {record.status}" for record in jobs.records.live()]
+    live = [f"{record.id} is {record.status}" for record in jobs.records.segmentations.live()]
     queued = [f"{depth} jobs wait on {name}" for name, depth in jobs.depths().items() if depth]
     missing = expected - len(seen.results) - len(seen.lost) - len(seen.wrong)
     return [*live, *queued, *(["a take was never done"] * max(missing, 0))]
@@ -71,10 +71,10 @@ def _stuck(jobs: Jobs, expected: int, seen: Seen) -> list[str]:
 def _duplicated(house: House, jobs: Jobs, expected: int, seen: Seen) -> list[str]:
     """More animations or segmentations than were sent, or a result that is another than its client has seen."""
     found = []
-    animations = jobs.records.uses()
+    animations = jobs.records.animations.uses()
     if len(animations) > expected:
         found.append(f"{len(animations)} animations of {expected} takes")
-    found += [f"{name} was cut twice" for name in animations if len(jobs.records.segmentations(name)) > 1]
+    found += [f"{name} was cut twice" for name in animations if len(jobs.records.segmentations.of(name)) > 1]
     with httpx.Client(base_url=house.url, trust_env=False, timeout=30) as http:
         for identifier, tag, content in seen.results.values():
             now = http.get(f"/v1/segmentations/{identifier}/result.json")

@@ -20,10 +20,10 @@ from service.told import Told, told
 from worker import ids
 from worker.async_records import AsyncRecords
 from worker.blobs import Blobs
+from worker.connection import connect
 from worker.jobs import Jobs
 from worker.layout import check_layout
 from worker.leftovers import clear
-from worker.records import connect
 from worker.schema import AnimationRecord, SegmentationRecord
 
 

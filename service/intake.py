@@ -25,9 +25,9 @@ def keep(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tu
     header = _header(backend, main)
     described = [(part.name, part.bytes, part.sha256) for part in parts]
     identifier = ids.animation_id(backend.secret, owner, described)
-    kept = backend.jobs.records.animation(identifier)
+    kept = backend.jobs.records.animations.one(identifier)
     if kept is not None and kept.parts:
-        backend.jobs.records.touch_animation(identifier)
+        backend.jobs.records.animations.touch(identifier)
         return kept, False
     record = AnimationRecord(
         id=identifier,
@@ -43,7 +43,7 @@ def keep(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tu
         triangles=header.triangles,
         created=time.time(),
     )
-    kept, ours = backend.jobs.records.add_animation(record)
+    kept, ours = backend.jobs.records.animations.add(record)
     if not ours:
         for part in record.parts:
             backend.blobs.delete(part.key)

@@ -13,7 +13,7 @@ from prometheus_client.registry import Collector
 
 from service.backend import Backend
 from worker import keys, tallies
-from worker.records import names
+from worker.connection import names
 
 METHODS = frozenset({"GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS"})
 LATENCY_BUCKETS = (0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 1, 5, 30)

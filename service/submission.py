@@ -52,7 +52,7 @@ def submit(backend: Backend, animation: AnimationRecord, parameters: Parameters,
         if stored is not None:
             return stored
     if not animation.parts:
-        kept = backend.jobs.records.segmentation(identifier)
+        kept = backend.jobs.records.segmentations.one(identifier)
         if kept is None or not kept.settled:
             raise Refusal("gone", "The files of this animation are no longer kept. Upload it again to cut it anew.")
     return backend.jobs.submit(wanted)

@@ -16,11 +16,11 @@ from collections.abc import Callable
 from contextlib import closing
 
 from service.settings import ServiceSettings
+from worker.connection import connect
 from worker.horses import forget_workers
 from worker.jobs import Jobs
 from worker.layout import check_layout
 from worker.lifeline import lifeline
-from worker.records import connect
 from worker.redis_server import EmbeddedRedis
 
 log = logging.getLogger(__name__)

@@ -17,8 +17,9 @@ from core.parameters import ALGORITHM, Parameters
 from tests.animations import performing_bar
 from worker import ids
 from worker.blobs import Blobs
+from worker.connection import connect
 from worker.jobs import Jobs
-from worker.records import Records, connect
+from worker.records import Records
 from worker.schema import AnimationRecord, Part, SegmentationRecord
 from worker.settings import WorkerSettings
 
@@ -60,7 +61,7 @@ class Installation:
         identifier = ids.animation_id(SECRET, "", [("take", len(content), key)])
         part = Part(name="take", key=key, bytes=len(content))
         record = AnimationRecord(id=identifier, name="take", format="npz", parts=(part,), created=time.time())
-        return self.records.add_animation(record)[0]
+        return self.records.animations.add(record)[0]
 
     def wanted(self, animation, method="joint-entropy", **given):
         parameters = Parameters(method=method, **given)
@@ -81,7 +82,7 @@ class Installation:
         """The record once `reached(record)` holds."""
         deadline = time.monotonic() + seconds
         while True:
-            record = self.records.segmentation(identifier)
+            record = self.records.segmentations.one(identifier)
             if record is not None and reached(record):
                 return record
             assert time.monotonic() < deadline, record

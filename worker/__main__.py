@@ -16,12 +16,12 @@ from pathlib import Path
 from redis.exceptions import RedisError
 
 from worker import logs
+from worker.connection import connect
 from worker.horses import CaesuraWorker, alive_here
 from worker.jobs import QUEUES, Jobs
 from worker.layout import LayoutTooNew, check_layout
 from worker.leftovers import clear
 from worker.pool import Pool
-from worker.records import connect
 from worker.settings import WorkerSettings
 
 DEFAULT_GROUPS = [["analyse", "cut"], ["cut"]]

@@ -48,8 +48,8 @@ def recall(records: Records, wanted: SegmentationRecord, beside: str) -> Segment
     None too where it was asked for before: then it is as it is.
     """
     stored = records.redis.hget(keys.alternatives_key(beside), str(wanted.parameters["motions"]))
-    result = records.segmentation(beside)
-    whole, energy, _ = records.result(beside) if isinstance(stored, bytes) else (None, None, None)
+    result = records.segmentations.one(beside)
+    whole, energy, _ = records.segmentations.result(beside) if isinstance(stored, bytes) else (None, None, None)
     if not isinstance(stored, bytes) or result is None or whole is None or energy is None:
         return None
     alternative = SegmentationDocument.model_validate_json(zlib.decompress(stored))
@@ -75,7 +75,7 @@ def recall(records: Records, wanted: SegmentationRecord, beside: str) -> Segment
         pipe.set(keys.segmentation_key(wanted.id, "labels"), labels_of(alternative.segments))
         pipe.zadd(keys.USED_KEY, {wanted.animation: time.time()}, xx=True)
 
-    return records.change(wanted.id, change, also, new=wanted)
+    return records.segmentations.change(wanted.id, change, also, new=wanted)
 
 
 def labels_of(segments: tuple[Segment, ...]) -> bytes:

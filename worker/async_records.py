@@ -6,9 +6,9 @@ from contextlib import aclosing
 import redis.asyncio
 
 from worker import keys
+from worker.connection import names
 from worker.listening import Listener, Words
 from worker.owned import OwnedReads
-from worker.records import names
 from worker.schema import AnimationRecord, ExportRecord, SegmentationRecord
 from worker.together import Together
 

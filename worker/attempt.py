@@ -76,7 +76,8 @@ class Attempt:
         self.end_stage()
 
     def _write(self, stage: str, fraction: float) -> bool:
-        return self.records.of_attempt(self.record.token, self.record.id, stage=stage, fraction=fraction) is not None
+        record = self.record
+        return self.records.attempts.change(record.id, record.token, stage=stage, fraction=fraction) is not None
 
     def end_stage(self) -> None:
         """Count how long the stage took that is over now."""
@@ -88,7 +89,7 @@ class Attempt:
 
     def fail(self, problem: dict[str, Any]) -> None:
         """End it with a problem."""
-        self.records.fail(self.record.id, self.record.token, problem)
+        self.records.attempts.fail(self.record.id, self.record.token, problem)
 
     def again(self, problem: dict[str, Any]) -> None:
         """Try it once more after a pause, or end it with the problem after the last attempt."""
@@ -101,7 +102,7 @@ def carry_out(jobs: Jobs, identifier: str, token: str, work: Callable[[Attempt],
     The store or the queue out of reach: tried again, a bounded number of times. Anything else is a bug of ours: the
     record says so in one sentence, and the exception goes on to RQ, which logs it.
     """
-    record = jobs.records.begin(identifier, token)
+    record = jobs.records.attempts.begin(identifier, token)
     if record is None:
         log.info("%s: this attempt is no longer wanted", identifier)
         return

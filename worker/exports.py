@@ -99,7 +99,7 @@ def keyframes(export: Export, _: Options) -> ExportRecord:
 
 def _of_upload(export: Export, write: Callable[[Parts, Scratch], Written]) -> ExportRecord:
     """A file made of the uploaded one, which must still be there."""
-    animation = export.records.animation(export.record.animation)
+    animation = export.records.animations.one(export.record.animation)
     if animation is None or not animation.parts:
         raise BlobMissing(export.record.animation)
     allowance = Allowance(export.settings.job_memory_bytes, EXPORT_SECONDS)
@@ -116,8 +116,8 @@ def run(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: st
     """Write one form of one result, and say where it is; a failure is said too, and raised where it is ours."""
     name, _, query = form.partition("?")
     options = dict(parse_qsl(query))
-    record = records.segmentation(identifier)
-    document, energy, _ = records.result(identifier)
+    record = records.segmentations.one(identifier)
+    document, energy, _ = records.segmentations.result(identifier)
     revision = int(options.pop("revision", "0"))
     edits = edits_of(records, identifier, revision) if revision else ()
     if record is None or document is None or energy is None or edits is None:
@@ -133,8 +133,8 @@ def run(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: st
     except BlobMissing:
         made = ExportRecord(problem=GONE, created=time.time())
     except Exception:
-        records.write_export(identifier, form, ExportRecord(problem=INTERNAL_ERROR, created=time.time()))
+        records.exports.write(identifier, form, ExportRecord(problem=INTERNAL_ERROR, created=time.time()))
         raise
-    if not records.write_export(identifier, form, made) and made.key is not None:
+    if not records.exports.write(identifier, form, made) and made.key is not None:
         blobs.delete(made.key)
     forget_oldest_exports(records, blobs, identifier, MOST_EXPORTS)

@@ -20,35 +20,35 @@ def forget_segmentation(jobs: Jobs, blobs: Blobs, identifier: str) -> None:
 def forget_animation(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
     """Delete an upload and everything derived from it, also what is asked for while it is being deleted."""
     while True:
-        for segmentation in jobs.records.segmentations(animation.id):
+        for segmentation in jobs.records.segmentations.of(animation.id):
             forget_segmentation(jobs, blobs, segmentation.id)
         forget_files(jobs, blobs, animation)
-        if jobs.records.delete_animation(animation):
+        if jobs.records.animations.delete(animation):
             return
 
 
 def forget_files(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
     """Delete an upload's files, what was computed from them, and copies of them in clips; results stay."""
-    for segmentation in jobs.records.segmentations(animation.id):
-        for form in jobs.records.exports(segmentation.id):
+    for segmentation in jobs.records.segmentations.of(animation.id):
+        for form in jobs.records.exports.forms(segmentation.id):
             if form.partition("?")[0] in OF_UPLOAD:
                 forget_export(jobs.records, blobs, segmentation.id, form)
-    for digest, analysis in jobs.records.analyses(animation.id).items():
+    for digest, analysis in jobs.records.analyses.all(animation.id).items():
         for key in analysis.blobs():
             blobs.delete(key)
-        jobs.records.delete_analysis(animation.id, digest)
+        jobs.records.analyses.delete(animation.id, digest)
     for part in animation.parts:
         blobs.delete(part.key)
 
 
 def _forget_exports(jobs: Jobs, blobs: Blobs, identifier: str) -> None:
-    for form in jobs.records.exports(identifier):
+    for form in jobs.records.exports.forms(identifier):
         forget_export(jobs.records, blobs, identifier, form)
 
 
 def forget_export(records: Records, blobs: Blobs, identifier: str, form: str) -> None:
     """Delete one file made of a result; asked for again, it is made again."""
-    made = records.export(identifier, form)
+    made = records.exports.one(identifier, form)
     if made is not None and made.key is not None:
         blobs.delete(made.key)
     records.redis.delete(keys.export_key(identifier, form))
@@ -60,7 +60,7 @@ def forget_oldest_exports(records: Records, blobs: Blobs, identifier: str, kept:
 
     So are forgotten answers that there is none, which are small but may be any number, and forms whose job was lost.
     """
-    made = {form: records.export(identifier, form) for form in records.exports(identifier)}
+    made = {form: records.exports.one(identifier, form) for form in records.exports.forms(identifier)}
     lost = [form for form, one in made.items() if one is None]
     over = sorted((one.created, form) for form, one in made.items() if one is not None and (one.key or one.problem))
     for form in [*lost, *(form for _, form in over[:-kept])]:

@@ -128,7 +128,7 @@ class CaesuraWorker(Worker):
     def maintain_heartbeats(self, job: Job) -> None:
         """In the worker, every few seconds while the horse runs."""
         super().maintain_heartbeats(job)
-        self._jobs.records.renew(job.id)
+        self._jobs.records.attempts.renew(job.id)
 
     def request_force_stop(self, signum: int, frame: Any) -> None:  # noqa: ARG002  a signal handler's arguments
         """The second signal: stop the job too, and let it be handed back; see `_lost`."""
@@ -146,7 +146,7 @@ class CaesuraWorker(Worker):
             return
         ended_by = os.WTERMSIG(status) if status is not None and os.WIFSIGNALED(status) else None
         if status is None or ended_by == signal.SIGXCPU:
-            self._jobs.records.fail(identifier, token, OUT_OF_TIME)
+            self._jobs.records.attempts.fail(identifier, token, OUT_OF_TIME)
         elif ended_by in {signal.SIGABRT, signal.SIGSEGV}:
             self._jobs.again(identifier, token, OUT_OF_MEMORY)
         else:

@@ -25,7 +25,8 @@ from rq.timeouts import JobTimeoutException as TimeLimit
 
 from core.errors import CaesuraError
 from worker import ids, keys, tallies
-from worker.records import Records, connect
+from worker.connection import connect
+from worker.records import Records
 from worker.schema import ExportRecord, Queue, SegmentationRecord
 from worker.settings import WorkerSettings
 
@@ -96,7 +97,7 @@ class Jobs:
             self.check_room()
             return self._attempt(kept, attempt=1)
 
-        return self.records.change(record.id, change, self._enqueue, new=record) or self._kept(record)
+        return self.records.segmentations.change(record.id, change, self._enqueue, new=record) or self._kept(record)
 
     def cancel(self, identifier: str) -> SegmentationRecord | None:
         """queued, running -> cancelled, and stop the worker; None where it was not live."""
@@ -107,7 +108,7 @@ class Jobs:
             token = record.token  # of the attempt that is cancelled: it may be a newer one than was seen before
             return record.with_(status="cancelled", token="", stage="", fraction=0.0) if record.live else None
 
-        after = self.records.change(identifier, change)
+        after = self.records.segmentations.change(identifier, change)
         if after is not None:
             self._drop(token)
         return after
@@ -116,8 +117,8 @@ class Jobs:
         """Cancel where it is live, then forget it and its result."""
         while True:
             self.cancel(identifier)
-            record = self.records.segmentation(identifier)
-            if record is None or self.records.delete_segmentation(record):
+            record = self.records.segmentations.one(identifier)
+            if record is None or self.records.segmentations.delete(record):
                 return
 
     def position(self, record: SegmentationRecord) -> int | None:
@@ -153,7 +154,7 @@ class Jobs:
         with self.redis.pipeline() as pipe:
             while True:
                 pipe.watch(key, keys.segmentation_key(identifier))
-                kept = self.records.export(identifier, form)
+                kept = self.records.exports.one(identifier, form)
                 if kept is not None and (kept.problem or {}).get("kind") != "worker":
                     return kept
                 if not pipe.exists(keys.segmentation_key(identifier)):
@@ -198,7 +199,7 @@ class Jobs:
             self._enqueue(pipe, after)
             tallies.count_lost(pipe, problem["code"])
 
-        after = self.records.change(identifier, change, also)
+        after = self.records.segmentations.change(identifier, change, also)
         if after is not None:
             log.warning("%s: attempt lost (%s), now %s", identifier, problem["code"], after.status)
         return after
@@ -210,7 +211,7 @@ class Jobs:
             wanted = record.token == token and record.live
             return self._attempt(record, attempt=record.attempt, queue=queue) if wanted else None
 
-        return self.records.change(identifier, change, self._enqueue)
+        return self.records.segmentations.change(identifier, change, self._enqueue)
 
     # How nothing is stuck.
 
@@ -222,7 +223,7 @@ class Jobs:
         of processes may. At the start of an embedded server no worker can be alive: then one call settles all.
         Those whose pause is over get their place in the queue.
         """
-        live = self.records.live()
+        live = self.records.segmentations.live()
         for paused in (record for record in live if record.due):
             self._resume(paused, at_once=everything_started_is_lost)
         live = [record for record in live if not record.due]
@@ -250,7 +251,7 @@ class Jobs:
                 same = record.token == paused.token and record.status == "queued" and record.due
                 return record.with_(due=0.0) if same else None
 
-            self.records.change(paused.id, change, self._enqueue)
+            self.records.segmentations.change(paused.id, change, self._enqueue)
 
     def _attended(self, record: SegmentationRecord) -> bool:
         if record.status == "running":
@@ -263,7 +264,7 @@ class Jobs:
         """A fresh attempt at the same."""
         if queue is None:
             digest = ids.heavy_digest(record.chosen().heavy(), record.algorithm)
-            queue = "analyse" if self.records.analysis(record.animation, digest) is None else "cut"
+            queue = "analyse" if self.records.analyses.one(record.animation, digest) is None else "cut"
         fresh = {"stage": "", "fraction": 0.0, "problem": None, "attempt": attempt, "queue": queue, "due": 0.0}
         return record.with_(status="queued", token=ids.token(), **fresh)
 
@@ -296,4 +297,4 @@ class Jobs:
             return
 
     def _kept(self, record: SegmentationRecord) -> SegmentationRecord:
-        return self.records.segmentation(record.id) or self.submit(record)
+        return self.records.segmentations.one(record.id) or self.submit(record)

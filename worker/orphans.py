@@ -9,7 +9,8 @@ from collections.abc import Iterator
 
 from worker import keys
 from worker.blobs import Blobs
-from worker.records import Records, names
+from worker.connection import names
+from worker.records import Records
 
 
 def forget_orphans(records: Records, blobs: Blobs, doubt_seconds: float) -> dict[str, int]:
@@ -33,14 +34,14 @@ def forget_orphans(records: Records, blobs: Blobs, doubt_seconds: float) -> dict
 
 def _pointers(records: Records) -> Iterator[str]:
     """The keys of all blobs that some record names."""
-    for identifier in records.uses():
-        animation = records.animation(identifier)
+    for identifier in records.animations.uses():
+        animation = records.animations.one(identifier)
         yield from (part.key for part in (animation.parts if animation else ()))
-        for analysis in records.analyses(identifier).values():
+        for analysis in records.analyses.all(identifier).values():
             yield from analysis.blobs()
-        for segmentation in records.segmentations(identifier):
-            for form in records.exports(segmentation.id):
-                made = records.export(segmentation.id, form)
+        for segmentation in records.segmentations.of(identifier):
+            for form in records.exports.forms(segmentation.id):
+                made = records.exports.one(segmentation.id, form)
                 if made is not None and made.key is not None:
                     yield made.key
 

@@ -20,20 +20,20 @@ def sweep(
     What is queued or running keeps its upload. A record goes with the last thing that it is the record of.
     """
     now = time.time()
-    for identifier, used in jobs.records.uses().items():
-        animation = jobs.records.animation(identifier)
+    for identifier, used in jobs.records.animations.uses().items():
+        animation = jobs.records.animations.one(identifier)
         if animation is not None:
             _sweep_animation(jobs, blobs, animation, used < now - keep_upload, now - keep_result)
     forget_orphans(jobs.records, blobs, doubt_seconds)
 
 
 def _sweep_animation(jobs: Jobs, blobs: Blobs, animation: AnimationRecord, unused: bool, oldest: float) -> None:
-    cuts = jobs.records.segmentations(animation.id)
+    cuts = jobs.records.segmentations.of(animation.id)
     outdated = [cut for cut in cuts if not cut.live and cut.updated < oldest]
     for cut in outdated:
         forget_segmentation(jobs, blobs, cut.id)
     if not unused or any(cut.live for cut in cuts):
         return
     forget_files(jobs, blobs, animation)
-    if not jobs.records.delete_animation(animation):
-        jobs.records.strip_animation(animation)
+    if not jobs.records.animations.delete(animation):
+        jobs.records.animations.strip(animation)

@@ -39,7 +39,7 @@ def add_revision(
             keys.revised_key(identifier), str(record.revision), EDITS.dump_json(tuple(edits), exclude_defaults=True)
         )
 
-    after = records.change(identifier, change, also)
+    after = records.segmentations.change(identifier, change, also)
     return None if after is None else RevisionRecord(number=after.revision, created=now, note=note)
 
 

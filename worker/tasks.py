@@ -43,7 +43,7 @@ def run_cut(identifier: str, token: str) -> None:
 def run_alternatives(identifier: str) -> None:
     """The result for every other number of motions that it scored: nobody waits for them, and none is a must."""
     settings, records = place().settings, place().jobs.records
-    record, (document, _, _) = records.segmentation(identifier), records.result(identifier)
+    record, (document, _, _) = records.segmentations.one(identifier), records.segmentations.result(identifier)
     if record is None or record.analysis is None or document is None:
         return  # deleted meanwhile
     Allowance(settings.job_memory_bytes, settings.job_seconds)
@@ -93,7 +93,7 @@ def _analyse(attempt: Attempt) -> None:
 
 def _keep(attempt: Attempt, blobs: Blobs, digest: str, made: AnalysisRecord) -> AnalysisRecord:
     """Keep the analysis. Where another job made the same one meanwhile, its blobs stay and these go."""
-    kept = attempt.records.add_analysis(attempt.record.animation, digest, made)
+    kept = attempt.records.analyses.add(attempt.record.animation, digest, made)
     if kept != made:
         for key in made.blobs():
             blobs.delete(key)
@@ -106,13 +106,13 @@ def _cut(attempt: Attempt) -> None:
     record, parameters, settings = attempt.record, attempt.record.chosen(), place().settings
     digest = ids.heavy_digest(parameters.heavy(), record.algorithm)
     Allowance(settings.job_memory_bytes, settings.job_seconds)
-    stored = attempt.records.analysis(record.animation, digest)
+    stored = attempt.records.analyses.one(record.animation, digest)
     if stored is not None:
         with suppress(BlobMissing):
             analysis = stored_analysis(stored.key)
             _finish(attempt, stored, analysis, parameters)
             return
-        attempt.records.delete_analysis(record.animation, digest)
+        attempt.records.analyses.delete(record.animation, digest)
     attempt.jobs.hand_back(record.id, record.token, queue="analyse")
 
 
@@ -120,7 +120,7 @@ def _finish(attempt: Attempt, stored: AnalysisRecord, analysis: Analysis, parame
     attempt.progress("cut", 0.0)
     result = cut(analysis, parameters)
     document = result.document(attempt.record.id)
-    finished = attempt.records.finish(
+    finished = attempt.records.attempts.finish(
         attempt.record.id,
         attempt.record.token,
         document.model_dump_json(),
@@ -135,7 +135,7 @@ def _finish(attempt: Attempt, stored: AnalysisRecord, analysis: Analysis, parame
 
 
 def _animation(attempt: Attempt) -> AnimationRecord:
-    found = attempt.records.animation(attempt.record.animation)
+    found = attempt.records.animations.one(attempt.record.animation)
     if found is None or not found.parts:
         raise BlobMissing(attempt.record.animation)
     return found

@@ -5,7 +5,7 @@ import redis
 from core.errors import ParameterError
 from service.credentials import KeyRecord
 from worker import keys
-from worker.records import names
+from worker.connection import names
 
 
 class KeyRing:

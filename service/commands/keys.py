@@ -75,7 +75,7 @@ def _ring() -> Iterator["KeyRing"]:
 
     from service.commands.key_ring import KeyRing
     from service.settings import ServiceSettings
-    from worker.records import connect
+    from worker.connection import connect
 
     location = ServiceSettings().redis_location
     try:

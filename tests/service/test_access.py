@@ -229,7 +229,7 @@ def test_an_open_event_stream_ends_with_its_key(owned, by):
                 owned.ring.revoke("listening")
             assert "deleted" not in "".join(heard)  # and it ends: this returns
         assert owned.ask("GET /v1/limits", headers=headers).status_code == 401
-        Records(owned.redis).change(owned.segmentation, lambda record: record)
+        Records(owned.redis).segmentations.change(owned.segmentation, lambda record: record)
         assert '"queued"' in "".join(itertools.islice(words, 2))
     if by == "signed out":
         owned.ring.revoke("listening")

@@ -2,7 +2,8 @@
 
 import pytest
 
-from worker.records import Records, connect
+from worker.connection import connect
+from worker.records import Records
 
 
 @pytest.fixture(scope="module")
@@ -100,7 +101,7 @@ def test_an_upload_that_is_no_longer_kept_is_gone_until_it_comes_again(idle, tak
     content = take(206)
     identifier = idle.http.post("/v1/animations", content=content).json()["id"]
     records = Records(connect(idle.redis_url))
-    records.strip_animation(records.animation(identifier))
+    records.animations.strip(records.animations.one(identifier))
     assert idle.http.get(f"/v1/animations/{identifier}").status_code == 200
     assert idle.http.get(f"/v1/animations/{identifier}/file").json()["code"] == "gone"
     assert idle.http.post("/v1/segmentations", json={"animation": identifier}).status_code == 410

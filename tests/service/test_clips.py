@@ -11,8 +11,8 @@ import pytest
 from tests.glb import bending_strip
 from worker import keys
 from worker.blobs import Blobs
+from worker.connection import connect
 from worker.jobs import Jobs
-from worker.records import connect
 from worker.retention import sweep
 
 
@@ -103,7 +103,7 @@ def test_clips_go_with_the_upload(service):
     here = made["links"]["clips"]
     assert fetched(service, here).content.startswith(b"glTF")
     jobs, blobs = Jobs(connect(service.redis_url)), Blobs.open(str(service.data / "blobs"), service.data / "scratch")
-    copy = jobs.records.export(made["id"], "clips").key
+    copy = jobs.records.exports.one(made["id"], "clips").key
     jobs.redis.zadd(keys.USED_KEY, {made["animation"]: 0})
     sweep(jobs, blobs, 1e9, 1e9)
     answer = service.http.get(here)

@@ -13,9 +13,9 @@ import pytest
 from tests.glb import bending_strip
 from worker import keys
 from worker.blobs import Blobs
+from worker.connection import connect
 from worker.exports import MOST_EXPORTS
 from worker.jobs import Jobs
-from worker.records import connect
 from worker.retention import sweep
 from worker.revisions import MOST_REVISIONS
 
@@ -240,7 +240,7 @@ def test_revisions_go_with_their_result(service, take):
     revise(service, here, WALK)
     jobs, blobs = Jobs(connect(service.redis_url)), Blobs.open(str(service.data / "blobs"), service.data / "scratch")
     identifier = here.rpartition("/")[2]
-    jobs.records.change(identifier, lambda record: record)
+    jobs.records.segmentations.change(identifier, lambda record: record)
     key = keys.segmentation_key(identifier)
     record = json.loads(jobs.redis.get(key))
     jobs.redis.set(key, json.dumps({**record, "updated": 0}))
@@ -252,7 +252,7 @@ def test_revisions_go_with_their_result(service, take):
 def test_there_is_an_end_to_revisions(service, fresh):
     """After a thousand of one result no more are kept, and that is said."""
     identifier, records = fresh.rpartition("/")[2], Jobs(connect(service.redis_url)).records
-    records.change(identifier, lambda record: record.with_(revision=MOST_REVISIONS))
+    records.segmentations.change(identifier, lambda record: record.with_(revision=MOST_REVISIONS))
     answer = revise(service, fresh, WALK, match=f'"{MOST_REVISIONS}"')
     assert (answer.status_code, answer.json()["code"]) == (409, "too-many-revisions")
 
@@ -292,11 +292,11 @@ def test_only_the_newest_files_are_kept(service, fresh):
     for seconds in range(MOST_EXPORTS + 2):
         answer = service.http.get(f"{fresh}/clips?min_seconds=0.0{seconds:02}", headers={"Prefer": "wait=30"})
         assert answer.status_code == 200
-    while len(kept := jobs.records.exports(identifier)) > MOST_EXPORTS:
+    while len(kept := jobs.records.exports.forms(identifier)) > MOST_EXPORTS:
         time.sleep(0.05)  # the worker clears up after its answer
     assert "clips?min_seconds=0.001" not in kept
     stored = {path.name for path in (service.data / "blobs" / "exports").rglob("*")}
-    assert {jobs.records.export(identifier, form).key.rpartition("/")[2] for form in kept} <= stored
+    assert {jobs.records.exports.one(identifier, form).key.rpartition("/")[2] for form in kept} <= stored
     assert service.http.get(f"{fresh}/clips", headers={"Prefer": "wait=30"}).status_code == 200
 
 
@@ -306,6 +306,6 @@ def test_answers_that_there_is_no_file_are_as_few(service, fresh):
     for number in range(MOST_EXPORTS + 3):
         answer = service.http.get(f"{fresh}/clips?loop=none-{number}", headers={"Prefer": "wait=30"})
         assert (answer.status_code, answer.json()["code"]) == (422, "unknown-motion")
-    while len(records.exports(identifier)) > MOST_EXPORTS:
+    while len(records.exports.forms(identifier)) > MOST_EXPORTS:
         time.sleep(0.05)
     assert len(list(records.redis.scan_iter(f"caesura:export:{identifier}:*", count=1000))) <= MOST_EXPORTS

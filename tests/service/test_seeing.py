@@ -11,7 +11,7 @@ from prometheus_client.parser import text_string_to_metric_families
 from service.headroom import FULL
 from tests.service.conftest import serve
 from worker import logs
-from worker.records import connect
+from worker.connection import connect
 
 
 def scraped(service):

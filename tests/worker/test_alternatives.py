@@ -14,7 +14,7 @@ SWITCHING = {"method": "switching"}
 
 def stored(place, record):
     """The alternatives beside a result, once every one is there."""
-    document, _, _ = place.records.result(record.id)
+    document, _, _ = place.records.segmentations.result(record.id)
     scored = SegmentationDocument.model_validate_json(document).scores
     key = keys.alternatives_key(record.id)
     place.until(record.id, lambda _: place.redis.hlen(key) == len(scored))
@@ -44,9 +44,9 @@ def test_every_number_that_was_scored_is_stored(unasked):
 def test_what_is_stored_is_not_listed_until_it_is_asked_for(place, unasked):
     """The animation has one segmentation, and a second one as soon as somebody wants it."""
     animation, done, scored = unasked
-    assert [record.id for record in place.records.segmentations(animation.id)] == [done.id]
+    assert [record.id for record in place.records.segmentations.of(animation.id)] == [done.id]
     made = recall(place.records, place.wanted(animation, motions=scored[0], **SWITCHING), done.id)
-    assert {record.id for record in place.records.segmentations(animation.id)} == {done.id, made.id}
+    assert {record.id for record in place.records.segmentations.of(animation.id)} == {done.id, made.id}
     place.jobs.delete(made.id)
 
 
@@ -56,14 +56,14 @@ def test_the_answer_is_the_one_that_a_job_would_give(place, unasked):
     wanted = place.wanted(animation, motions=scored[-1], **SWITCHING)
     made = recall(place.records, wanted, done.id)
     assert (made.status, made.attempt) == ("done", 0)
-    told = place.records.result(made.id)
+    told = place.records.segmentations.result(made.id)
     place.jobs.delete(made.id)
     computed = place.ended(place.submit(animation, motions=scored[-1], **SWITCHING).id)
     assert computed.attempt == 1
-    assert place.records.result(computed.id) == told
+    assert place.records.segmentations.result(computed.id) == told
     assert (computed.segments, computed.motions, computed.frames) == (made.segments, made.motions, made.frames)
     place.jobs.delete(computed.id)
-    assert json.loads(told[0])["energy"] == json.loads(place.records.result(done.id)[0])["energy"]
+    assert json.loads(told[0])["energy"] == json.loads(place.records.segmentations.result(done.id)[0])["energy"]
 
 
 def test_what_was_asked_for_before_stays_as_it_is(place, unasked):

@@ -42,10 +42,10 @@ def test_waiting_sleeps_through_progress(idle, take):
         waiting = asyncio.create_task(records.ended(record.id))
         await asyncio.sleep(0.2)
         before = (await records.redis.info("commandstats"))["cmdstat_mget"]["calls"]
-        idle.records.begin(record.id, record.token)
+        idle.records.attempts.begin(record.id, record.token)
         for number in range(9):
-            idle.records.of_attempt(record.token, record.id, stage="strain", fraction=number / 10)
-        idle.records.fail(record.id, record.token, {"kind": "input", "code": "no-motion", "detail": ""})
+            idle.records.attempts.change(record.id, record.token, stage="strain", fraction=number / 10)
+        idle.records.attempts.fail(record.id, record.token, {"kind": "input", "code": "no-motion", "detail": ""})
         told = await waiting
         return told.status, (await records.redis.info("commandstats"))["cmdstat_mget"]["calls"] - before
 

@@ -26,7 +26,7 @@ def ending_with(idle, queued, error):
         raise error
 
     carry_out(idle.jobs, queued.id, queued.token, work)
-    return idle.records.segmentation(queued.id)
+    return idle.records.segmentations.one(queued.id)
 
 
 def test_a_refusal_is_the_answer(idle, queued):
@@ -52,7 +52,7 @@ def test_what_is_out_of_reach_is_tried_again(idle, queued, error):
     """The store or the queue: another attempt may find it."""
     with pytest.raises(type(error)):
         ending_with(idle, queued, error)
-    again = idle.records.segmentation(queued.id)
+    again = idle.records.segmentations.one(queued.id)
     assert (again.status, again.attempt) == ("queued", 2)
 
 
@@ -60,7 +60,7 @@ def test_a_bug_is_told_without_its_details(idle, queued):
     """One sentence for the client; the exception goes on to the log."""
     with pytest.raises(ZeroDivisionError):
         ending_with(idle, queued, ZeroDivisionError("secret path"))
-    failed = idle.records.segmentation(queued.id)
+    failed = idle.records.segmentations.one(queued.id)
     assert (failed.status, failed.problem["code"]) == ("failed", "internal-error")
     assert "secret" not in failed.model_dump_json()
 
@@ -82,7 +82,7 @@ def test_a_cancelled_attempt_stops_at_one_of_its_next_words(idle, queued):
 
     carry_out(idle.jobs, queued.id, queued.token, work)
     assert stopped
-    assert idle.records.segmentation(queued.id).status == "cancelled"
+    assert idle.records.segmentations.one(queued.id).status == "cancelled"
 
 
 def test_progress_never_goes_back_within_a_stage(idle, queued):
@@ -94,13 +94,13 @@ def test_progress_never_goes_back_within_a_stage(idle, queued):
         attempt.progress("figure", 0.1)
         attempt.progress("cut", 0.1)
         idle.until(queued.id, lambda record: record.stage == "cut")
-        assert idle.records.segmentation(queued.id).fraction == 0.1
+        assert idle.records.segmentations.one(queued.id).fraction == 0.1
         attempt.progress("cut", 0.0)
         attempt.progress("cut", 0.2)
         idle.until(queued.id, lambda record: record.fraction == 0.2)
 
     carry_out(idle.jobs, queued.id, queued.token, work)
-    assert idle.records.segmentation(queued.id).status == "running"
+    assert idle.records.segmentations.one(queued.id).status == "running"
 
 
 def test_the_newest_word_is_told_and_work_does_not_wait_for_it(idle, queued):
@@ -131,4 +131,4 @@ def test_a_word_that_cannot_be_told_ends_the_attempt_as_a_fault_of_the_machine(i
 
     with pytest.raises(OutOfMemoryError):
         carry_out(idle.jobs, queued.id, queued.token, work)
-    assert idle.records.segmentation(queued.id).attempt == 2
+    assert idle.records.segmentations.one(queued.id).attempt == 2

@@ -6,7 +6,7 @@ from contextlib import suppress
 import pytest
 
 from worker.forgetting import forget_animation, forget_segmentation
-from worker.records import AnimationDeleted
+from worker.records.segmentations import AnimationDeleted
 from worker.retention import sweep
 
 
@@ -30,33 +30,33 @@ def test_nothing_is_queued_of_what_has_gone(idle, take):
 def test_what_is_queued_while_its_animation_is_deleted_goes_with_it(idle, take, monkeypatch):
     """The order comes when all is deleted but the record of the upload: it is deleted too."""
     animation, late = idle.upload(take), []
-    delete = idle.records.delete_animation
+    delete = idle.records.animations.delete
 
     def delayed(record):
         if not late:
             late.append(idle.submit(animation))
         return delete(record)
 
-    monkeypatch.setattr(idle.records, "delete_animation", delayed)
+    monkeypatch.setattr(idle.records.animations, "delete", delayed)
     forget_animation(idle.jobs, idle.blobs, animation)
     assert late
     assert left(idle, animation.id, late[0].id) == ([], [])
-    assert not idle.records.live()
+    assert not idle.records.segmentations.live()
 
 
 def test_what_is_queued_while_its_animation_is_swept_is_told(idle, take, monkeypatch):
     """The sweep has deleted the files when the order comes: the order stays, and its job will say why it has none."""
     animation, late = idle.upload(take), []
-    delete = idle.records.delete_animation
+    delete = idle.records.animations.delete
 
     def delayed(record):
         late.append(idle.submit(animation))
         return delete(record)
 
-    monkeypatch.setattr(idle.records, "delete_animation", delayed)
+    monkeypatch.setattr(idle.records.animations, "delete", delayed)
     sweep(idle.jobs, idle.blobs, -1.0, 1e9)
-    assert idle.records.segmentation(late[0].id).live
-    assert idle.records.animation(animation.id).parts == ()
+    assert idle.records.segmentations.one(late[0].id).live
+    assert idle.records.animations.one(animation.id).parts == ()
 
 
 def test_no_file_is_made_of_what_has_gone(idle, take):
@@ -83,7 +83,7 @@ def test_deleting_and_asking_at_once_leaves_all_or_nothing(idle, take):
         thread.start()
     for _ in range(10):
         forget_animation(idle.jobs, idle.blobs, animation)
-        idle.records.add_animation(animation)
+        idle.records.animations.add(animation)
     over.set()
     for thread in asking:
         thread.join()

@@ -2,7 +2,7 @@
 
 from core.parameters import ALGORITHM, Parameters
 from worker import ids
-from worker.records import connect
+from worker.connection import connect
 
 SECRET = b"s" * 32
 PARTS = [("a.gltf", 10, "00ff"), ("a.bin", 20, "ff00")]

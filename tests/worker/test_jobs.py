@@ -11,7 +11,7 @@ from tests.installation import SLOWLY, descendants
 from worker import keys
 from worker.horse import WORKING
 from worker.jobs import QUEUES, Jobs, QueueFull, pause_seconds, worker_problem
-from worker.records import LEASE_SECONDS
+from worker.records.attempts import LEASE_SECONDS
 
 LOST = worker_problem("worker-lost", "Lost.")
 RESULT = {"energy": b"", "labels": b""}
@@ -46,22 +46,22 @@ def test_a_queued_job_can_be_cancelled_and_comes_back(idle, take):
 def test_an_attempt_begins_once(idle, take):
     """Were its job delivered twice, the second delivery does nothing."""
     record = idle.submit(idle.upload(take))
-    assert idle.records.begin(record.id, record.token).status == "running"
-    assert idle.records.begin(record.id, record.token) is None
+    assert idle.records.attempts.begin(record.id, record.token).status == "running"
+    assert idle.records.attempts.begin(record.id, record.token) is None
 
 
 def test_a_late_attempt_writes_nothing(idle, take):
     """Once another attempt has begun, the old one can tell no progress, no result and no failure."""
     record = idle.submit(idle.upload(take))
-    old = idle.records.begin(record.id, record.token)
+    old = idle.records.attempts.begin(record.id, record.token)
     newer = idle.jobs.again(old.id, old.token, LOST)
     assert (newer.status, newer.attempt) == ("queued", 2)
-    assert idle.records.of_attempt(old.token, old.id, stage="late") is None
-    assert not idle.records.finish(old.id, old.token, "late", RESULT)
-    assert not idle.records.fail(old.id, old.token, LOST)
+    assert idle.records.attempts.change(old.id, old.token, stage="late") is None
+    assert not idle.records.attempts.finish(old.id, old.token, "late", RESULT)
+    assert not idle.records.attempts.fail(old.id, old.token, LOST)
     assert idle.jobs.again(old.id, old.token, LOST) is None
-    assert idle.records.segmentation(old.id) == newer
-    assert idle.records.result(old.id) == (None, None, None)
+    assert idle.records.segmentations.one(old.id) == newer
+    assert idle.records.segmentations.result(old.id) == (None, None, None)
 
 
 def test_attempts_are_bounded_and_then_posting_again_starts_anew(idle, take):
@@ -78,12 +78,12 @@ def test_attempts_are_bounded_and_then_posting_again_starts_anew(idle, take):
 def test_a_running_job_without_a_sign_of_life_is_tried_again(idle, take):
     """Not at first sight, which may be a clock that jumped, but at the second."""
     record = idle.submit(idle.upload(take))
-    running = idle.records.begin(record.id, record.token)
+    running = idle.records.attempts.begin(record.id, record.token)
     assert 0 < idle.redis.ttl(keys.lease_key(running.token)) <= LEASE_SECONDS
     assert idle.jobs.reconcile() == 0
     idle.redis.delete(keys.lease_key(running.token))
     assert [idle.jobs.reconcile(), idle.jobs.reconcile(), idle.jobs.reconcile()] == [0, 1, 0]
-    assert idle.records.segmentation(record.id).attempt == 2
+    assert idle.records.segmentations.one(record.id).attempt == 2
 
 
 def test_a_job_that_fell_out_of_its_queue_is_queued_again(idle, take):
@@ -91,22 +91,22 @@ def test_a_job_that_fell_out_of_its_queue_is_queued_again(idle, take):
     record = idle.submit(idle.upload(take))
     idle.redis.delete("rq:queue:analyse")
     assert [idle.jobs.reconcile(), idle.jobs.reconcile()] == [0, 1]
-    assert idle.jobs.position(idle.records.segmentation(record.id)) == 0
+    assert idle.jobs.position(idle.records.segmentations.one(record.id)) == 0
 
 
 def test_after_a_fault_of_the_infrastructure_it_pauses(idle, take):
     """It is queued but has no place in the queue, nobody takes it for lost, and when its pause is over it gets one."""
     record = idle.submit(idle.upload(take))
-    idle.records.begin(record.id, record.token)
+    idle.records.attempts.begin(record.id, record.token)
     idle.redis.delete("rq:queue:analyse")  # its worker had taken it from there
     paused = idle.jobs.again(record.id, record.token, LOST, pause=True)
     assert (paused.status, paused.attempt, idle.jobs.position(paused)) == ("queued", 2, None)
     assert 0 < paused.due - time.time() <= pause_seconds(1)
     assert [idle.jobs.reconcile(), idle.jobs.reconcile()] == [0, 0]
     assert idle.jobs.position(paused) is None
-    idle.records.change(record.id, lambda r: r.with_(due=time.time() - 1))
+    idle.records.segmentations.change(record.id, lambda r: r.with_(due=time.time() - 1))
     assert idle.jobs.reconcile() == 0
-    resumed = idle.records.segmentation(record.id)
+    resumed = idle.records.segmentations.one(record.id)
     assert (resumed.attempt, resumed.token, resumed.due) == (2, paused.token, 0)
     assert idle.jobs.position(resumed) == 0
 
@@ -115,9 +115,9 @@ def test_a_pause_does_not_outlast_a_clock_that_was_put_back(idle, take):
     """What is due in an hour was not set by this clock."""
     record = idle.submit(idle.upload(take))
     paused = idle.jobs.again(record.id, record.token, LOST, pause=True)
-    idle.records.change(record.id, lambda r: r.with_(due=time.time() + 3600))
+    idle.records.segmentations.change(record.id, lambda r: r.with_(due=time.time() + 3600))
     idle.jobs.reconcile()
-    assert idle.records.segmentation(paused.id).due == 0
+    assert idle.records.segmentations.one(paused.id).due == 0
 
 
 def test_pauses_grow_and_are_bounded():
@@ -189,14 +189,14 @@ def test_a_running_job_can_be_cancelled(place, long_take):
     record = place.begun(place.submit(place.upload(long_take), **SLOWLY).id)
     assert place.jobs.cancel(record.id).status == "cancelled"
     assert nothing_started(place, seconds=2.0)
-    assert place.records.segmentation(record.id).status == "cancelled"
-    assert place.records.result(record.id) == (None, None, None)
+    assert place.records.segmentations.one(record.id).status == "cancelled"
+    assert place.records.segmentations.result(record.id) == (None, None, None)
 
 
 def test_a_clock_that_jumps_loses_no_attempt(idle, take):
     """A lease is Redis's to end: what our clocks say of a record, a year ago or ahead, makes nobody lost."""
     record = idle.submit(idle.upload(take))
-    running = idle.records.begin(record.id, record.token)
+    running = idle.records.attempts.begin(record.id, record.token)
     for jumped in (running.updated - 3e7, running.updated + 3e7):
         key = keys.segmentation_key(record.id)
         idle.redis.set(key, running.with_(updated=jumped, created=jumped).model_dump_json())

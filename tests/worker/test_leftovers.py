@@ -113,7 +113,7 @@ def test_a_sweep_that_is_killed_leaves_no_orphan(idle, take, deletions):
     """Killed after any number of deletions: the next one ends what it began, and nothing of it stays anywhere."""
     animation = idle.upload(take)
     analysis = idle.blobs.put(b"analysis", "analyses")
-    idle.records.add_analysis(animation.id, "digest", AnalysisRecord(key=analysis))
+    idle.records.analyses.add(animation.id, "digest", AnalysisRecord(key=analysis))
     env = {**os.environ, **idle.settings.environment()}
     ended = subprocess.run([sys.executable, "-c", SWEEP, str(deletions)], check=False, env=env)
     assert ended.returncode == (-signal.SIGKILL if deletions < 2 else 0)
@@ -127,7 +127,7 @@ def test_a_file_made_of_what_was_deleted_meanwhile_is_kept_nowhere(idle, take):
     record = idle.submit(idle.upload(take))
     made = ExportRecord(key="exports/x")
     idle.jobs.submit_export(record.id, "npz")
-    assert idle.records.write_export(record.id, "npz", made)
+    assert idle.records.exports.write(record.id, "npz", made)
     forget_segmentation(idle.jobs, idle.blobs, record.id)
-    assert not idle.records.write_export(record.id, "npz", made)
-    assert idle.records.export(record.id, "npz") is None
+    assert not idle.records.exports.write(record.id, "npz", made)
+    assert idle.records.exports.one(record.id, "npz") is None

@@ -22,10 +22,10 @@ def test_a_result_of_an_earlier_version_is_read(idle):
     """Record and document, by a version that knows more fields; the algorithm stays the one that made it."""
     idle.redis.set(keys.segmentation_key("old"), json.dumps(RECORD))
     idle.redis.set(keys.segmentation_key("old", "document"), json.dumps(DOCUMENT))
-    record = idle.records.segmentation("old")
+    record = idle.records.segmentations.one("old")
     assert (record.status, record.algorithm, record.revision) == ("done", "0", 0)
     assert record.chosen().motions == 2
-    document = SegmentationDocument.model_validate_json(idle.records.result("old")[0])
+    document = SegmentationDocument.model_validate_json(idle.records.segmentations.result("old")[0])
     assert document.segments[0].confidence == 1
     assert document.model_dump(mode="json", exclude_unset=True) == DOCUMENT
 
@@ -33,5 +33,5 @@ def test_a_result_of_an_earlier_version_is_read(idle):
 def test_what_a_later_version_adds_is_passed_over(idle):
     """While two versions run side by side, the older one reads the newer one's records."""
     idle.redis.set(keys.segmentation_key("new"), json.dumps({**RECORD, "id": "new", "colour": "green"}))
-    assert idle.records.segmentation("new").status == "done"
+    assert idle.records.segmentations.one("new").status == "done"
     assert SegmentationDocument.model_validate({**DOCUMENT, "mood": "glad"}).frames == 2

@@ -7,7 +7,7 @@ import time
 import pytest
 import redis
 
-from worker.records import connect
+from worker.connection import connect
 from worker.redis_server import EmbeddedRedis, ServerUnavailable
 
 

@@ -25,7 +25,7 @@ def test_what_is_in_use_stays(place, done):
     """Nothing is old: nothing goes."""
     sweep(place.jobs, place.blobs, LONG, LONG)
     assert len(files(place, *done)) == 4
-    assert place.records.segmentation(done[1].id) == done[1]
+    assert place.records.segmentations.one(done[1].id) == done[1]
 
 
 def test_an_unused_upload_goes_before_its_results(place, done, take):
@@ -34,12 +34,12 @@ def test_an_unused_upload_goes_before_its_results(place, done, take):
     place.redis.zadd(keys.USED_KEY, {animation.id: 0})
     sweep(place.jobs, place.blobs, 3600, LONG)
     assert files(place, *done) == []
-    assert place.records.result(cut.id)[0] is not None
+    assert place.records.segmentations.result(cut.id)[0] is not None
     assert place.ended(place.submit(animation, motions=2).id).problem["code"] == "animation-deleted"
     again = animation.model_copy(
         update={"parts": (schema.Part(name="", key=place.blobs.put(take, "uploads"), bytes=1),)}
     )
-    assert place.records.add_animation(again) == (again, True)
+    assert place.records.animations.add(again) == (again, True)
     assert place.ended(place.submit(animation, motions=2).id).status == "done"
 
 
@@ -56,7 +56,7 @@ def test_an_old_result_goes_and_the_record_with_the_last_one(place, done):
     """Nothing of it stays: no blob, no key."""
     animation, cut = done
     place.redis.zadd(keys.USED_KEY, {animation.id: 0})
-    kept = place.records.segmentation(cut.id).with_(updated=0.0)
+    kept = place.records.segmentations.one(cut.id).with_(updated=0.0)
     place.redis.set(keys.segmentation_key(cut.id), kept.model_dump_json())
     sweep(place.jobs, place.blobs, 3600, LONG / 1e3)
     assert files(place, *done) == []

@@ -117,6 +117,6 @@ def test_children_that_die_are_started_again(start, take):
         except (OSError, ConnectionError):
             time.sleep(0.1)
     assert second.status == "done"
-    assert serving.place.records.segmentation(done.id) == done
-    assert json.loads(serving.place.records.result(done.id)[0])["id"] == done.id
+    assert serving.place.records.segmentations.one(done.id) == done
+    assert json.loads(serving.place.records.segmentations.result(done.id)[0])["id"] == done.id
     assert serving.end(signal.SIGINT) == (0, [])

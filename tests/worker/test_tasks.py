@@ -15,7 +15,7 @@ def test_an_upload_becomes_a_result(place, take):
     assert submitted.queue == "analyse"
     done = place.ended(submitted.id)
     assert (done.status, done.problem, done.attempt) == ("done", None, 1)
-    document, energy, labels = place.records.result(done.id)
+    document, energy, labels = place.records.segmentations.result(done.id)
     told = json.loads(document)
     assert told["id"] == done.id
     assert told["frames"] == done.frames == len(np.frombuffer(labels, "<u2")) == len(np.frombuffer(energy, "<f4"))
@@ -94,7 +94,7 @@ def test_an_npz_is_made_of_a_result(place, take):
     """The web process has no arrays, so a job writes the NPZ; asked for twice, it is made once."""
     done = place.ended(place.submit(place.upload(take)).id)
     assert place.jobs.submit_export(done.id, "npz").key is None
-    while (made := place.records.export(done.id, "npz")).key is None:
+    while (made := place.records.exports.one(done.id, "npz")).key is None:
         assert made.problem is None
     assert place.jobs.submit_export(done.id, "npz") == made
     with place.blobs.path(made.key) as path, np.load(path) as arrays:

@@ -1,0 +1,75 @@
+"""Records of uploads, each in its owner's list, and all by the time of their last use."""
+
+import time
+
+import redis
+
+from worker import keys
+from worker.connection import names
+from worker.schema import AnimationRecord
+
+
+class Animations:
+    """The uploads of one Redis."""
+
+    def __init__(self, client: redis.Redis) -> None:
+        self._redis = client
+
+    def one(self, identifier: str) -> AnimationRecord | None:
+        """The animation, or None."""
+        return AnimationRecord.read(self._redis.get(keys.animation_key(identifier)))
+
+    def add(self, record: AnimationRecord) -> tuple[AnimationRecord, bool]:
+        """Keep a new animation: (the record that is kept, whether it is this one).
+
+        Where it was there before, with its files, the stored record is answered; the caller then deletes its own.
+        """
+        key = keys.animation_key(record.id)
+        with self._redis.pipeline() as pipe:
+            while True:
+                pipe.watch(key)
+                kept = AnimationRecord.read(pipe.get(key))
+                if kept is not None and kept.parts:
+                    return kept, False
+                pipe.multi()
+                pipe.set(key, record.model_dump_json())
+                pipe.zadd(keys.animations_key(record.owner), {record.id: record.created})
+                pipe.zadd(keys.USED_KEY, {record.id: record.created})
+                try:
+                    pipe.execute()
+                except redis.WatchError:
+                    continue
+                return record, True
+
+    def strip(self, record: AnimationRecord) -> None:
+        """Forget where its files were: they are gone."""
+        self._redis.set(
+            keys.animation_key(record.id), record.model_copy(update={"parts": ()}).model_dump_json(), xx=True
+        )
+
+    def uses(self) -> dict[str, float]:
+        """When each animation was used last: uploaded, or asked to be cut."""
+        return {name: score for (name,), score in ((names([n]), s) for n, s in self._redis.zscan_iter(keys.USED_KEY))}
+
+    def touch(self, identifier: str) -> None:
+        """It is used now, and so kept from now on."""
+        self._redis.zadd(keys.USED_KEY, {identifier: time.time()}, xx=True)
+
+    def delete(self, record: AnimationRecord) -> bool:
+        """Forget an animation; its blobs, analyses and segmentations are the caller's to delete before.
+
+        False, and nothing is forgotten, where it has segmentations: one was asked for in this moment.
+        """
+        with self._redis.pipeline() as pipe:
+            pipe.watch(keys.segmentations_key(record.id))
+            if pipe.exists(keys.segmentations_key(record.id)):
+                return False
+            pipe.multi()
+            pipe.delete(keys.animation_key(record.id))
+            pipe.zrem(keys.animations_key(record.owner), record.id)
+            pipe.zrem(keys.USED_KEY, record.id)
+            try:
+                pipe.execute()
+            except redis.WatchError:
+                return False
+            return True

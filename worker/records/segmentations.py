@@ -1,0 +1,118 @@
+"""Records of segmentations, with their results. Every change is one MULTI that also tells it on their channel."""
+
+import time
+from collections.abc import Callable
+
+import redis
+from redis.client import Pipeline
+
+from core.errors import CaesuraError
+from worker import keys, tallies
+from worker.connection import names
+from worker.schema import SegmentationRecord
+
+Change = Callable[[SegmentationRecord], SegmentationRecord | None]
+Also = Callable[[Pipeline, SegmentationRecord], None]
+
+
+class AnimationDeleted(CaesuraError):
+    """A segmentation was asked for of what is not there any more."""
+
+    kind = "request"
+
+
+class Segmentations:
+    """The segmentations of one Redis."""
+
+    def __init__(self, client: redis.Redis) -> None:
+        self._redis = client
+
+    def one(self, identifier: str) -> SegmentationRecord | None:
+        """The segmentation, or None."""
+        return SegmentationRecord.read(self._redis.get(keys.segmentation_key(identifier)))
+
+    def of(self, animation: str) -> list[SegmentationRecord]:
+        """All segmentations of an animation, newest first."""
+        ids = names(self._redis.zrevrange(keys.segmentations_key(animation), 0, -1))
+        return [record for record in map(self.one, ids) if record is not None]
+
+    def live(self) -> list[SegmentationRecord]:
+        """All segmentations that are queued or running."""
+        ids = sorted(names(self._redis.smembers(keys.LIVE_KEY)))
+        return [record for record in map(self.one, ids) if record is not None and record.live]
+
+    def result(self, identifier: str) -> tuple[bytes | None, bytes | None, bytes | None]:
+        """The result document, the energy curve and the labels, as stored."""
+        with self._redis.pipeline() as pipe:
+            for part in ("document", "energy", "labels"):
+                pipe.get(keys.segmentation_key(identifier, part))
+            document, energy, labels = pipe.execute()
+            return document, energy, labels
+
+    def change(
+        self, identifier: str, change: Change, also: Also | None = None, new: SegmentationRecord | None = None
+    ) -> SegmentationRecord | None:
+        """Replace the record by `change(record)`, together with what `also` puts into the same MULTI.
+
+        `change` sees the stored record, or `new` where there is none, and may answer None: nothing happens then,
+        and None is answered. It is called again where another process wrote in between, so it must be pure.
+        Raises `AnimationDeleted` where it would be `new`, and what it is of has gone meanwhile.
+        """
+        key = keys.segmentation_key(identifier)
+        with self._redis.pipeline() as pipe:
+            while True:
+                pipe.watch(key)
+                stored = SegmentationRecord.read(pipe.get(key))
+                if stored is None and new is not None:
+                    _watch_animation(pipe, new.animation)
+                before = stored or new
+                after = None if before is None else change(before)
+                if after is None:
+                    pipe.unwatch()
+                    return None
+                after = after.with_(updated=time.time())
+                pipe.multi()
+                _write(pipe, after)
+                tallies.count_change(pipe, before, after)
+                if also is not None:
+                    also(pipe, after)
+                try:
+                    pipe.execute()
+                except redis.WatchError:
+                    continue
+                return after
+
+    def delete(self, record: SegmentationRecord) -> bool:
+        """Forget a segmentation and its result; False, and nothing is forgotten, where it is live again: cancel it."""
+        with self._redis.pipeline() as pipe:
+            key = keys.segmentation_key(record.id)
+            pipe.watch(key)
+            kept = SegmentationRecord.read(pipe.get(key))
+            if kept is not None and kept.live:
+                return False
+            pipe.multi()
+            parts = [keys.segmentation_key(record.id, part) for part in ("document", "energy", "labels")]
+            pipe.delete(key, *parts, keys.revisions_key(record.id), keys.revised_key(record.id))
+            pipe.delete(keys.alternatives_key(record.id))
+            pipe.zrem(keys.segmentations_key(record.animation), record.id)
+            pipe.srem(keys.LIVE_KEY, record.id)
+            pipe.publish(keys.channel(record.id), b"deleted")
+            try:
+                pipe.execute()
+            except redis.WatchError:
+                return False
+            return True
+
+
+def _write(pipe: Pipeline, record: SegmentationRecord) -> None:
+    pipe.set(keys.segmentation_key(record.id), record.model_dump_json())
+    pipe.zadd(keys.segmentations_key(record.animation), {record.id: record.created})
+    (pipe.sadd if record.live else pipe.srem)(keys.LIVE_KEY, record.id)
+    pipe.publish(keys.channel(record.id), record.status)
+
+
+def _watch_animation(pipe: Pipeline, identifier: str) -> None:
+    """Whoever deletes it from now on spoils the MULTI: nothing is kept that nobody would delete any more."""
+    pipe.watch(keys.animation_key(identifier))
+    if not pipe.exists(keys.animation_key(identifier)):
+        raise AnimationDeleted("animation-deleted", "The animation was deleted meanwhile. Upload it again.")
