@@ -60,10 +60,10 @@ def verdict(house: House, expected: int, seen: Seen, quiet: Seen | None) -> Verd
 def _stuck(jobs: Jobs, expected: int, seen: Seen) -> list[str]:
     """What was never done, and what is still on its way when it should long be quiet."""
     deadline = time.monotonic() + QUIET_SECONDS
-    while (jobs.records.segmentations.live() or any(jobs.depths().values())) and time.monotonic() < deadline:
+    while (jobs.records.segmentations.live() or any(jobs.queues.depths().values())) and time.monotonic() < deadline:
         time.sleep(0.2)
     live = [f"{record.id} is {record.status}" for record in jobs.records.segmentations.live()]
-    queued = [f"{depth} jobs wait on {name}" for name, depth in jobs.depths().items() if depth]
+    queued = [f"{depth} jobs wait on {name}" for name, depth in jobs.queues.depths().items() if depth]
     missing = expected - len(seen.results) - len(seen.lost) - len(seen.wrong)
     return [*live, *queued, *(["a take was never done"] * max(missing, 0))]
 

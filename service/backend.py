@@ -100,7 +100,7 @@ class Backend:
         """How many jobs come before it; None where it does not wait."""
         if record.status != "queued":
             return None
-        found = await self.records.redis.lpos(self.jobs.queue_key(record.queue), record.token)
+        found = await self.records.redis.lpos(self.jobs.queues.key(record.queue), record.token)
         return found if isinstance(found, int) else None
 
 

@@ -72,7 +72,7 @@ class _Shared(Collector):
         memory = redis.info("memory")
         stored = redis.hgetall(keys.STORE_KEY)
         told = tallies.read(redis.hgetall(keys.TALLY_KEY))
-        yield _gauge("queue_jobs", "Jobs that wait in a queue.", "queue", self._backend.jobs.depths())
+        yield _gauge("queue_jobs", "Jobs that wait in a queue.", "queue", self._backend.jobs.queues.depths())
         yield _gauge(
             "store_bytes",
             "Size of the blobs of a kind at the last sweep.",

@@ -18,6 +18,7 @@ from service.forms import Form
 from service.preferences import wait_seconds
 from service.ranges import Stored, caching, not_modified, stored_response
 from service.revisions import document_of, number_of
+from worker.errands import submit_export
 from worker.schema import ExportRecord, SegmentationRecord
 
 EXPORT_WAIT_SECONDS = 5
@@ -132,7 +133,7 @@ async def _export(backend: Backend, identifier: str, form: str, seconds: float) 
     """The export, asked for where nobody has yet; as it is after so many seconds."""
     made = await backend.records.export(identifier, form)
     if made is None or (made.problem or {}).get("kind") == "worker":
-        made = await to_thread.run_sync(backend.jobs.submit_export, identifier, form)
+        made = await to_thread.run_sync(submit_export, backend.jobs, identifier, form)
     with backend.patience(seconds):
         async with aclosing(backend.records.changes(identifier)) as changes:
             async for _ in changes:

@@ -10,7 +10,7 @@ import yaml
 from service.cli import main
 from service.settings import ServiceSettings
 from tests.test_settings_table import variable
-from worker.jobs import QUEUES
+from worker.queues import QUEUES
 
 USER = 10001
 

@@ -17,12 +17,15 @@ from redis.exceptions import RedisError
 
 from worker import logs
 from worker.connection import connect
+from worker.errands import sweep_sometimes
 from worker.horses import CaesuraWorker, alive_here
-from worker.jobs import QUEUES, Jobs
+from worker.jobs import Jobs
 from worker.layout import LayoutTooNew, check_layout
 from worker.leftovers import clear
 from worker.pool import Pool
+from worker.queues import QUEUES
 from worker.settings import WorkerSettings
+from worker.watch import Watch
 
 DEFAULT_GROUPS = [["analyse", "cut"], ["cut"]]
 
@@ -54,10 +57,11 @@ def run(settings: WorkerSettings, groups: list[list[str]]) -> None:
     warm()
     gc.freeze()  # what is loaded now stays: collecting it would copy the pages that the forks share
     jobs = Jobs.open(settings)
+    watch = Watch(jobs)
 
     def tend() -> None:
-        jobs.reconcile()
-        jobs.sweep_sometimes()
+        watch.reconcile()
+        sweep_sometimes(jobs)
         clear(settings.scratch_dir)
 
     Pool(groups, lambda queues: _work(queues, settings), tend, settings.stop_seconds).run()

@@ -11,34 +11,15 @@ from redis.exceptions import RedisError
 from core.errors import CaesuraError
 from worker import logs, tallies
 from worker.blobs import BlobMissing
-from worker.jobs import Jobs, TimeLimit, worker_problem
+from worker.jobs import Jobs
+from worker.problems import DELETED, INTERNAL_ERROR, OUT_OF_MEMORY, OUT_OF_TIME, UNAVAILABLE
+from worker.queues import TimeLimit
 from worker.schema import SegmentationRecord
 from worker.telling import Teller
 
 log = logging.getLogger(__name__)
 
 INFRASTRUCTURE = (OSError, RedisError, StoreError)
-
-OUT_OF_MEMORY = worker_problem(
-    "out-of-memory",
-    "This take needs more memory than a job may use here. Send a smaller mesh or a shorter take, or ask the keeper "
-    "of this service to raise CAESURA_JOB_MEMORY_BYTES.",
-    setting="CAESURA_JOB_MEMORY_BYTES",
-)
-OUT_OF_TIME = worker_problem(
-    "out-of-time",
-    "This take needs more time than a job may use here. Send a shorter take or a lower fps, or ask the keeper of "
-    "this service to raise CAESURA_JOB_SECONDS.",
-    setting="CAESURA_JOB_SECONDS",
-)
-UNAVAILABLE = worker_problem(
-    "storage-unavailable",
-    "The service could not reach its store or its queue. Nothing is wrong with the file; try again.",
-)
-DELETED = worker_problem("animation-deleted", "The animation was deleted before it was analysed. Upload it again.")
-INTERNAL_ERROR = worker_problem(
-    "internal-error", "Something went wrong that is not the file's fault; the service's log has the details."
-)
 
 
 class Superseded(Exception):

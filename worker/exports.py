@@ -21,11 +21,11 @@ from core.plot.layout import picture_of
 from core.plot.png import png
 from core.revision import revised
 from worker.allowance import Allowance
-from worker.attempt import INTERNAL_ERROR
 from worker.blobs import BlobMissing, Blobs
+from worker.errands import EXPORT_SECONDS
 from worker.forgetting import forget_oldest_exports
-from worker.jobs import EXPORT_SECONDS
 from worker.mapping import mapped_parts, scratch_space
+from worker.problems import INTERNAL_ERROR
 from worker.records import Records
 from worker.revisions import edits_of
 from worker.schema import ExportRecord, SegmentationRecord

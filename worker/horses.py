@@ -19,10 +19,11 @@ from rq.job import Job
 from rq.serializers import JSONSerializer
 
 from worker.allowance import resident_bytes
-from worker.attempt import OUT_OF_MEMORY, OUT_OF_TIME
 from worker.horse import Horse
-from worker.jobs import QUEUES, TASKS, Jobs, worker_problem
+from worker.jobs import Jobs
 from worker.priority import yield_to_others
+from worker.problems import KILLED, OUT_OF_MEMORY, OUT_OF_TIME
+from worker.queues import QUEUES, TASKS
 
 MONITOR_SECONDS = 5  # between signs of life while a job runs
 IDLE_SECONDS = 30  # between signs of life, and waits for a job, while none does
@@ -33,10 +34,6 @@ JOBS_OF_A_HORSE = 200
 KEPT_BYTES = 256 * 2**20
 """A horse that has grown by more ends, so that its memory goes back."""
 KEPT_TASKS = frozenset({TASKS["analyse"], TASKS["cut"]})
-
-KILLED = worker_problem(
-    "worker-killed", "The process that worked on this was killed, most likely because the machine ran out of memory."
-)
 
 
 class CaesuraWorker(Worker):

@@ -15,6 +15,7 @@ from worker.alternatives import add_alternative
 from worker.attempt import Attempt, Superseded, carry_out
 from worker.blobs import BlobMissing, Blobs
 from worker.cpu import available_threads
+from worker.errands import submit_alternatives
 from worker.mapping import mapped_parts, scratch_space
 from worker.place import place, stored_analysis
 from worker.retention import sweep
@@ -131,7 +132,7 @@ def _finish(attempt: Attempt, stored: AnalysisRecord, analysis: Analysis, parame
         segments=document.segments,
     )
     if finished and document.scores:
-        attempt.jobs.submit_alternatives(attempt.record.id)
+        submit_alternatives(attempt.jobs, attempt.record.id)
 
 
 def _animation(attempt: Attempt) -> AnimationRecord:

@@ -44,7 +44,7 @@ async def create(request: Request, backend: Behind, owner: Owner) -> Response:
         parameters = Parameters.parse(order.parameters)
     else:
         Parameters.parse(order.parameters)  # refused before a long upload
-        await to_thread.run_sync(backend.jobs.check_room)
+        await to_thread.run_sync(backend.jobs.queues.check_room)
         async with received(request, backend.spool, backend.settings) as upload:
             order = order.with_fields(upload.fields)
             parameters = Parameters.parse(order.parameters)

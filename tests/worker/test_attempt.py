@@ -9,7 +9,7 @@ from redis.exceptions import OutOfMemoryError
 
 from core.errors import InvalidModel, from_problem
 from worker.attempt import carry_out
-from worker.jobs import TimeLimit
+from worker.queues import TimeLimit
 
 
 @pytest.fixture

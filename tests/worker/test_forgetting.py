@@ -5,6 +5,7 @@ from contextlib import suppress
 
 import pytest
 
+from worker.errands import submit_export
 from worker.forgetting import forget_animation, forget_segmentation
 from worker.records.segmentations import AnimationDeleted
 from worker.retention import sweep
@@ -24,7 +25,7 @@ def test_nothing_is_queued_of_what_has_gone(idle, take):
         idle.submit(animation)
     assert refused.value.code == "animation-deleted"
     assert left(idle, animation.id, idle.wanted(animation).id) == ([], [])
-    assert idle.jobs.depths() == {"analyse": 0, "cut": 0}
+    assert idle.jobs.queues.depths() == {"analyse": 0, "cut": 0}
 
 
 def test_what_is_queued_while_its_animation_is_deleted_goes_with_it(idle, take, monkeypatch):
@@ -63,7 +64,7 @@ def test_no_file_is_made_of_what_has_gone(idle, take):
     """Asked for in the moment of the delete: it is not found, and nothing is remembered of it."""
     record = idle.submit(idle.upload(take))
     forget_segmentation(idle.jobs, idle.blobs, record.id)
-    assert idle.jobs.submit_export(record.id, "npz").problem["code"] == "not-found"
+    assert submit_export(idle.jobs, record.id, "npz").problem["code"] == "not-found"
     assert left(idle, record.id)[0] == []
 
 
@@ -89,4 +90,4 @@ def test_deleting_and_asking_at_once_leaves_all_or_nothing(idle, take):
         thread.join()
     forget_animation(idle.jobs, idle.blobs, animation)
     assert left(idle, animation.id, idle.wanted(animation, motions=2).id)[0] == []
-    assert idle.jobs.depths() == {"analyse": 0, "cut": 0}
+    assert idle.jobs.queues.depths() == {"analyse": 0, "cut": 0}

@@ -5,15 +5,12 @@ import signal
 import time
 from pathlib import Path
 
-import pytest
-
 from tests.installation import SLOWLY, descendants
 from worker import keys
 from worker.horse import WORKING
-from worker.jobs import QUEUES, Jobs, QueueFull, pause_seconds, worker_problem
-from worker.records.attempts import LEASE_SECONDS
+from worker.problems import LOST
+from worker.queues import QUEUES
 
-LOST = worker_problem("worker-lost", "Lost.")
 RESULT = {"energy": b"", "labels": b""}
 
 
@@ -22,13 +19,7 @@ def test_the_same_submission_is_one_job(idle, take):
     animation = idle.upload(take)
     first = idle.submit(animation)
     assert idle.submit(animation) == first
-    assert idle.jobs.depths() == {"analyse": 1, "cut": 0}
-
-
-def test_positions_count_from_the_front(idle, take):
-    """The first in a queue has nobody before it."""
-    waiting = [idle.submit(idle.upload(take)) for _ in range(3)]
-    assert [idle.jobs.position(record) for record in waiting] == [0, 1, 2]
+    assert idle.jobs.queues.depths() == {"analyse": 1, "cut": 0}
 
 
 def test_a_queued_job_can_be_cancelled_and_comes_back(idle, take):
@@ -36,7 +27,7 @@ def test_a_queued_job_can_be_cancelled_and_comes_back(idle, take):
     animation = idle.upload(take)
     first = idle.submit(animation)
     assert idle.jobs.cancel(first.id).status == "cancelled"
-    assert idle.jobs.depths() == {"analyse": 0, "cut": 0}
+    assert idle.jobs.queues.depths() == {"analyse": 0, "cut": 0}
     assert idle.jobs.cancel(first.id) is None
     second = idle.submit(animation)
     assert second.status == "queued"
@@ -75,76 +66,13 @@ def test_attempts_are_bounded_and_then_posting_again_starts_anew(idle, take):
     assert (fresh.status, fresh.attempt, fresh.problem) == ("queued", 1, None)
 
 
-def test_a_running_job_without_a_sign_of_life_is_tried_again(idle, take):
-    """Not at first sight, which may be a clock that jumped, but at the second."""
-    record = idle.submit(idle.upload(take))
-    running = idle.records.attempts.begin(record.id, record.token)
-    assert 0 < idle.redis.ttl(keys.lease_key(running.token)) <= LEASE_SECONDS
-    assert idle.jobs.reconcile() == 0
-    idle.redis.delete(keys.lease_key(running.token))
-    assert [idle.jobs.reconcile(), idle.jobs.reconcile(), idle.jobs.reconcile()] == [0, 1, 0]
-    assert idle.records.segmentations.one(record.id).attempt == 2
-
-
-def test_a_job_that_fell_out_of_its_queue_is_queued_again(idle, take):
-    """A worker that dies between the queue and its first word takes the job with it; it is found missing."""
-    record = idle.submit(idle.upload(take))
-    idle.redis.delete("rq:queue:analyse")
-    assert [idle.jobs.reconcile(), idle.jobs.reconcile()] == [0, 1]
-    assert idle.jobs.position(idle.records.segmentations.one(record.id)) == 0
-
-
-def test_after_a_fault_of_the_infrastructure_it_pauses(idle, take):
-    """It is queued but has no place in the queue, nobody takes it for lost, and when its pause is over it gets one."""
-    record = idle.submit(idle.upload(take))
-    idle.records.attempts.begin(record.id, record.token)
-    idle.redis.delete("rq:queue:analyse")  # its worker had taken it from there
-    paused = idle.jobs.again(record.id, record.token, LOST, pause=True)
-    assert (paused.status, paused.attempt, idle.jobs.position(paused)) == ("queued", 2, None)
-    assert 0 < paused.due - time.time() <= pause_seconds(1)
-    assert [idle.jobs.reconcile(), idle.jobs.reconcile()] == [0, 0]
-    assert idle.jobs.position(paused) is None
-    idle.records.segmentations.change(record.id, lambda r: r.with_(due=time.time() - 1))
-    assert idle.jobs.reconcile() == 0
-    resumed = idle.records.segmentations.one(record.id)
-    assert (resumed.attempt, resumed.token, resumed.due) == (2, paused.token, 0)
-    assert idle.jobs.position(resumed) == 0
-
-
-def test_a_pause_does_not_outlast_a_clock_that_was_put_back(idle, take):
-    """What is due in an hour was not set by this clock."""
-    record = idle.submit(idle.upload(take))
-    paused = idle.jobs.again(record.id, record.token, LOST, pause=True)
-    idle.records.segmentations.change(record.id, lambda r: r.with_(due=time.time() + 3600))
-    idle.jobs.reconcile()
-    assert idle.records.segmentations.one(paused.id).due == 0
-
-
-def test_pauses_grow_and_are_bounded():
-    """Two seconds, eight, half a minute, never more than a minute."""
-    assert [pause_seconds(attempt) for attempt in (1, 2, 3, 4, 9)] == [2, 8, 32, 60, 60]
-
-
-def test_a_full_queue_takes_nothing_new(idle, take):
-    """And says how many wait, and what to set; what waits already is answered as it is."""
-    jobs = Jobs(idle.redis, max_queued=2)
-    waiting = [jobs.submit(idle.wanted(idle.upload(take))) for _ in range(2)]
-    with pytest.raises(QueueFull) as refused:
-        jobs.submit(idle.wanted(idle.upload(take)))
-    told = refused.value.problem()
-    assert (told["code"], told["limit"], told["actual"], told["setting"]) == ("queue-full", 2, 2, "CAESURA_MAX_QUEUED")
-    assert jobs.submit(waiting[0]) == waiting[0]
-    jobs.cancel(waiting[0].id)
-    assert jobs.submit(idle.wanted(idle.upload(take))).status == "queued"
-
-
 def test_a_deleted_segmentation_leaves_nothing(idle, take):
     """No key of it stays, and its job is gone."""
     record = idle.submit(idle.upload(take))
     idle.jobs.delete(record.id)
     assert not [key for key in idle.redis.scan_iter() if record.id.encode() in key]
     assert not idle.redis.smembers(keys.LIVE_KEY)
-    assert idle.jobs.depths() == {"analyse": 0, "cut": 0}
+    assert idle.jobs.queues.depths() == {"analyse": 0, "cut": 0}
 
 
 def horse(pool):
@@ -191,16 +119,3 @@ def test_a_running_job_can_be_cancelled(place, long_take):
     assert nothing_started(place, seconds=2.0)
     assert place.records.segmentations.one(record.id).status == "cancelled"
     assert place.records.segmentations.result(record.id) == (None, None, None)
-
-
-def test_a_clock_that_jumps_loses_no_attempt(idle, take):
-    """A lease is Redis's to end: what our clocks say of a record, a year ago or ahead, makes nobody lost."""
-    record = idle.submit(idle.upload(take))
-    running = idle.records.attempts.begin(record.id, record.token)
-    for jumped in (running.updated - 3e7, running.updated + 3e7):
-        key = keys.segmentation_key(record.id)
-        idle.redis.set(key, running.with_(updated=jumped, created=jumped).model_dump_json())
-        assert [idle.jobs.reconcile() for _ in range(3)] == [0, 0, 0]
-    assert 0 < idle.redis.ttl(keys.lease_key(record.token)) <= LEASE_SECONDS
-    idle.redis.delete(keys.lease_key(record.token))
-    assert [idle.jobs.reconcile() for _ in range(2)] == [0, 1]

@@ -9,6 +9,7 @@ import time
 import pytest
 
 from worker import keys
+from worker.errands import submit_export
 from worker.forgetting import forget_segmentation
 from worker.leftovers import aside, clear, path_of
 from worker.orphans import forget_orphans
@@ -126,7 +127,7 @@ def test_a_file_made_of_what_was_deleted_meanwhile_is_kept_nowhere(idle, take):
     """The job that made it learns that nobody points to it any more."""
     record = idle.submit(idle.upload(take))
     made = ExportRecord(key="exports/x")
-    idle.jobs.submit_export(record.id, "npz")
+    submit_export(idle.jobs, record.id, "npz")
     assert idle.records.exports.write(record.id, "npz", made)
     forget_segmentation(idle.jobs, idle.blobs, record.id)
     assert not idle.records.exports.write(record.id, "npz", made)

@@ -3,6 +3,7 @@
 import pytest
 
 from worker import keys, schema
+from worker.errands import sweep_sometimes
 from worker.retention import sweep
 
 LONG = 1e9
@@ -65,6 +66,6 @@ def test_an_old_result_goes_and_the_record_with_the_last_one(place, done):
 
 def test_a_sweep_is_queued_once_an_hour(idle):
     """However many processes ask."""
-    idle.jobs.sweep_sometimes()
-    idle.jobs.sweep_sometimes()
-    assert idle.jobs.depths()["cut"] == 1
+    sweep_sometimes(idle.jobs)
+    sweep_sometimes(idle.jobs)
+    assert idle.jobs.queues.depths()["cut"] == 1

@@ -5,6 +5,7 @@ import json
 import numpy as np
 
 from tests.installation import SLOWLY
+from worker.errands import submit_export
 
 
 def test_an_upload_becomes_a_result(place, take):
@@ -93,10 +94,10 @@ def test_a_file_that_is_gone_is_told_and_may_come_back(place, take):
 def test_an_npz_is_made_of_a_result(place, take):
     """The web process has no arrays, so a job writes the NPZ; asked for twice, it is made once."""
     done = place.ended(place.submit(place.upload(take)).id)
-    assert place.jobs.submit_export(done.id, "npz").key is None
+    assert submit_export(place.jobs, done.id, "npz").key is None
     while (made := place.records.exports.one(done.id, "npz")).key is None:
         assert made.problem is None
-    assert place.jobs.submit_export(done.id, "npz") == made
+    assert submit_export(place.jobs, done.id, "npz") == made
     with place.blobs.path(made.key) as path, np.load(path) as arrays:
         assert len(arrays["energy"]) == len(arrays["labels"]) == done.frames
         assert arrays["segments"][-1, 1] == done.frames

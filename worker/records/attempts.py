@@ -35,6 +35,10 @@ class Attempts:
         """Say that the attempt's worker lives."""
         (client or self._redis).set(keys.lease_key(token), b"1", ex=LEASE_SECONDS)
 
+    def leased(self, token: str) -> bool:
+        """Whether its worker said so lately."""
+        return bool(self._redis.exists(keys.lease_key(token)))
+
     def change(self, identifier: str, token: str, **changes: Any) -> SegmentationRecord | None:
         """Change a running segmentation's fields where `token` is still its attempt; None where it is not."""
         return self._segmentations.change(identifier, lambda r: r.with_(**changes) if _running(r, token) else None)

@@ -1,0 +1,50 @@
+"""Jobs that are no segmentation: a file of a result, the other numbers of motions, a look for what is kept too long."""
+
+from redis import WatchError
+
+from worker import ids, keys
+from worker.jobs import Jobs
+from worker.schema import ExportRecord
+
+EXPORT_SECONDS = 120
+SWEEP_SECONDS = 3600
+
+DELETED = {"kind": "request", "code": "not-found", "detail": "The segmentation was deleted meanwhile."}
+
+
+def submit_export(jobs: Jobs, identifier: str, form: str) -> ExportRecord:
+    """Have a file made of a result that is done, unless it is there or being made; see `Exports.one`."""
+    key = keys.export_key(identifier, form)
+    with jobs.redis.pipeline() as pipe:
+        while True:
+            pipe.watch(key, keys.segmentation_key(identifier))
+            kept = jobs.records.exports.one(identifier, form)
+            if kept is not None and (kept.problem or {}).get("kind") != "worker":
+                return kept
+            if not pipe.exists(keys.segmentation_key(identifier)):
+                return ExportRecord(problem=DELETED)
+            jobs.queues.check_room()
+            pipe.multi()
+            pipe.set(key, ExportRecord().model_dump_json(), ex=2 * EXPORT_SECONDS)  # then its job was lost
+            pipe.sadd(keys.exports_key(identifier), form)
+            jobs.queues.put("cut", "export", [identifier, form], ids.token(), EXPORT_SECONDS, pipe)
+            try:
+                pipe.execute()
+            except WatchError:  # somebody else asked for it in this moment, or deleted it
+                continue
+            return ExportRecord()
+
+
+def submit_alternatives(jobs: Jobs, identifier: str) -> None:
+    """Have the other numbers of motions worked out that a result has scored, when the takes before it are done."""
+    with jobs.redis.pipeline() as pipe:
+        jobs.queues.put("analyse", "alternatives", [identifier], ids.token(), jobs.job_seconds, pipe)
+        pipe.execute()
+
+
+def sweep_sometimes(jobs: Jobs) -> None:
+    """Queue a look for what is kept too long, where nobody has within the last hour. Call it at any time."""
+    if jobs.redis.set(keys.SWEPT_KEY, b"1", nx=True, ex=SWEEP_SECONDS):
+        with jobs.redis.pipeline() as pipe:
+            jobs.queues.put("cut", "sweep", [], ids.token(), SWEEP_SECONDS, pipe)
+            pipe.execute()

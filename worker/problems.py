@@ -1,0 +1,34 @@
+"""What can go wrong with a job that is not the file's fault, as records tell it."""
+
+from typing import Any
+
+
+def worker_problem(code: str, detail: str, **where: Any) -> dict[str, Any]:
+    """A problem that is not the file's: posting the same again starts anew."""
+    return {"kind": "worker", "code": code, "detail": detail, **where}
+
+
+OUT_OF_MEMORY = worker_problem(
+    "out-of-memory",
+    "This take needs more memory than a job may use here. Send a smaller mesh or a shorter take, or ask the keeper "
+    "of this service to raise CAESURA_JOB_MEMORY_BYTES.",
+    setting="CAESURA_JOB_MEMORY_BYTES",
+)
+OUT_OF_TIME = worker_problem(
+    "out-of-time",
+    "This take needs more time than a job may use here. Send a shorter take or a lower fps, or ask the keeper of "
+    "this service to raise CAESURA_JOB_SECONDS.",
+    setting="CAESURA_JOB_SECONDS",
+)
+KILLED = worker_problem(
+    "worker-killed", "The process that worked on this was killed, most likely because the machine ran out of memory."
+)
+LOST = worker_problem("worker-lost", "The worker was lost while it worked on this. Please try again.")
+UNAVAILABLE = worker_problem(
+    "storage-unavailable",
+    "The service could not reach its store or its queue. Nothing is wrong with the file; try again.",
+)
+DELETED = worker_problem("animation-deleted", "The animation was deleted before it was analysed. Upload it again.")
+INTERNAL_ERROR = worker_problem(
+    "internal-error", "Something went wrong that is not the file's fault; the service's log has the details."
+)

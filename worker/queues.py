@@ -1,0 +1,91 @@
+"""The queues, which are RQ's: jobs are put in, counted, found and taken out again. Nobody else asks RQ for that.
+
+analyse  from the vertices to the result, in seconds to minutes
+cut      what takes milliseconds: another cut of a stored analysis, files made of a result
+"""
+
+from typing import Any
+
+from redis import Redis
+from rq import Queue as RqQueue
+from rq.command import send_stop_job_command
+from rq.exceptions import InvalidJobOperation, NoSuchJobError
+from rq.job import Job
+from rq.serializers import JSONSerializer
+from rq.timeouts import JobTimeoutException as TimeLimit
+
+from core.errors import CaesuraError
+from worker.schema import Queue, SegmentationRecord
+
+__all__ = ["QUEUES", "TASKS", "QueueFull", "Queues", "TimeLimit"]
+
+QUEUES: tuple[Queue, ...] = ("analyse", "cut")
+TASKS = {name: f"worker.tasks.run_{name}" for name in (*QUEUES, "alternatives", "export", "sweep")}
+RESULT_SECONDS = 60  # how long RQ remembers what our record knows anyway
+FAILURE_SECONDS = 24 * 3600
+
+
+class QueueFull(CaesuraError):
+    """As many jobs wait as may."""
+
+    kind = "worker"
+
+
+class Queues:
+    """Both queues of one Redis. With `max_queued`, no more jobs than that may wait in them."""
+
+    def __init__(self, client: Redis, max_queued: int = 0) -> None:
+        self._redis = client
+        self._most = max_queued
+        self._queues = {name: RqQueue(name, connection=client, serializer=JSONSerializer) for name in QUEUES}
+
+    def put(self, queue: Queue, task: str, args: list[str], job_id: str, seconds: int, pipe: Any) -> None:
+        """Put a job of at most `seconds` last in a queue, when `pipe` is executed."""
+        self._queues[queue].enqueue_call(
+            TASKS[task],
+            args=args,
+            job_id=job_id,
+            timeout=seconds,
+            result_ttl=RESULT_SECONDS,
+            failure_ttl=FAILURE_SECONDS,
+            description=" ".join([task, *args[:1]]),
+            pipeline=pipe,
+        )
+
+    def drop(self, token: str) -> None:
+        """Take an attempt's RQ job out of its queue, or stop the worker that runs it."""
+        try:
+            job = Job.fetch(token, connection=self._redis, serializer=JSONSerializer)
+            if job.worker_name:
+                send_stop_job_command(self._redis, token, serializer=JSONSerializer)
+            else:
+                job.delete()
+        except (NoSuchJobError, InvalidJobOperation):
+            return
+
+    def position(self, record: SegmentationRecord) -> int | None:
+        """How many jobs come before it in its queue; None where it does not wait there."""
+        if record.status != "queued":
+            return None
+        found = self._redis.lpos(self.key(record.queue), record.token)
+        return found if isinstance(found, int) else None
+
+    def key(self, name: Queue) -> str:
+        """The list that a queue is in Redis."""
+        return str(self._queues[name].key)
+
+    def depths(self) -> dict[str, int]:
+        """How many jobs wait in each queue."""
+        return {name: self._redis.llen(queue.key) for name, queue in self._queues.items()}
+
+    def check_room(self) -> None:
+        """Raises `QueueFull` where as many jobs wait as may."""
+        waiting = sum(self.depths().values()) if self._most else 0
+        if waiting >= self._most > 0:
+            raise QueueFull(
+                "queue-full",
+                f"{waiting} jobs wait already, as many as this service lets wait. Nothing was queued; try again soon.",
+                limit=self._most,
+                actual=waiting,
+                setting="CAESURA_MAX_QUEUED",
+            )
