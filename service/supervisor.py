@@ -22,7 +22,7 @@ from worker.jobs import Jobs
 from worker.layout import check_layout
 from worker.lifeline import lifeline
 from worker.redis_server import EmbeddedRedis
-from worker.watch import Watch
+from worker.watch import recover
 
 log = logging.getLogger(__name__)
 
@@ -133,7 +133,7 @@ def _recover(settings: ServiceSettings) -> None:
     client = connect(settings.redis_location)
     check_layout(client)
     forget_workers(client)
-    lost = Watch(Jobs.open(settings)).reconcile(everything_started_is_lost=True)
+    lost = recover(Jobs.open(settings))
     if lost:
         log.warning("%d jobs were running at the last end; they are tried again", lost)
 

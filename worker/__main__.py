@@ -60,7 +60,7 @@ def run(settings: WorkerSettings, groups: list[list[str]]) -> None:
     watch = Watch(jobs)
 
     def tend() -> None:
-        watch.reconcile()
+        watch.look()
         sweep_sometimes(jobs)
         clear(settings.scratch_dir)
 

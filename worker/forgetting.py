@@ -1,6 +1,5 @@
 """Deleting what was kept: blobs before the record that points to them, so that it can be repeated when cut short."""
 
-from worker import keys
 from worker.blobs import Blobs
 from worker.jobs import Jobs
 from worker.records import Records
@@ -51,8 +50,7 @@ def forget_export(records: Records, blobs: Blobs, identifier: str, form: str) ->
     made = records.exports.one(identifier, form)
     if made is not None and made.key is not None:
         blobs.delete(made.key)
-    records.redis.delete(keys.export_key(identifier, form))
-    records.redis.srem(keys.exports_key(identifier), form)
+    records.exports.delete(identifier, form)
 
 
 def forget_oldest_exports(records: Records, blobs: Blobs, identifier: str, kept: int) -> None:

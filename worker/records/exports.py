@@ -38,3 +38,8 @@ class Exports:
                 except redis.WatchError:
                     continue
                 return True
+
+    def delete(self, segmentation: str, form: str) -> None:
+        """Forget a file, or why there is none; its blob is the caller's to delete before."""
+        self._redis.delete(keys.export_key(segmentation, form))
+        self._redis.srem(keys.exports_key(segmentation), form)
