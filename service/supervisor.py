@@ -17,11 +17,11 @@ from contextlib import closing
 
 from service.settings import ServiceSettings
 from worker.connection import connect
-from worker.horses import forget_workers
 from worker.jobs import Jobs
 from worker.layout import check_layout
 from worker.lifeline import lifeline
 from worker.redis_server import EmbeddedRedis
+from worker.roster import forget_workers
 from worker.watch import recover
 
 log = logging.getLogger(__name__)

@@ -18,12 +18,13 @@ from redis.exceptions import RedisError
 from worker import logs
 from worker.connection import connect
 from worker.errands import sweep_sometimes
-from worker.horses import CaesuraWorker, alive_here
+from worker.horses import CaesuraWorker
 from worker.jobs import Jobs
 from worker.layout import LayoutTooNew, check_layout
 from worker.leftovers import clear
 from worker.pool import Pool
 from worker.queues import QUEUES
+from worker.roster import alive_here
 from worker.settings import WorkerSettings
 from worker.watch import Watch
 

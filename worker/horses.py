@@ -5,10 +5,7 @@ import json
 import os
 import random
 import signal
-import socket
-import time
 from collections.abc import Callable
-from datetime import UTC, datetime, timedelta
 from typing import Any
 
 from redis import Redis
@@ -23,13 +20,12 @@ from worker.horse import Horse
 from worker.jobs import Jobs
 from worker.priority import yield_to_others
 from worker.problems import KILLED, OUT_OF_MEMORY, OUT_OF_TIME
-from worker.queues import QUEUES, TASKS
+from worker.queues import TASKS
+from worker.roster import IDLE_SECONDS
 
 MONITOR_SECONDS = 5  # between signs of life while a job runs
-IDLE_SECONDS = 30  # between signs of life, and waits for a job, while none does
 MAINTENANCE_SECONDS = 60
 RECONNECT_SECONDS = 5.0
-FAR_SECONDS = 10**9
 JOBS_OF_A_HORSE = 200
 KEPT_BYTES = 256 * 2**20
 """A horse that has grown by more ends, so that its memory goes back."""
@@ -148,22 +144,3 @@ class CaesuraWorker(Worker):
             self._jobs.again(identifier, token, OUT_OF_MEMORY)
         else:
             self._jobs.again(identifier, token, KILLED)
-
-
-def alive_here(client: Redis) -> bool:
-    """Whether a worker of this machine gave a sign of life lately."""
-    latest = datetime.now(UTC) - timedelta(seconds=2 * IDLE_SECONDS)
-    workers = Worker.all(connection=client, serializer=JSONSerializer)
-    here = [worker for worker in workers if worker.hostname == socket.gethostname()]
-    return any(worker.last_heartbeat is not None and worker.last_heartbeat > latest for worker in here)
-
-
-def forget_workers(client: Redis) -> None:
-    """Sweep what dead workers left in RQ's registries. Only where no worker can be alive: before the first starts."""
-    for name in QUEUES:
-        queue = RqQueue(name, connection=client, serializer=JSONSerializer)
-        queue.started_job_registry.cleanup(timestamp=time.time() + FAR_SECONDS)
-        client.delete(queue.intermediate_queue_key)
-    for worker in Worker.all(connection=client, serializer=JSONSerializer):
-        worker.register_death()
-        client.delete(worker.key)
