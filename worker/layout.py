@@ -11,7 +11,7 @@ what an older service would read wrongly. The first service of a new version rai
 from redis import Redis
 
 from worker import keys
-from worker.redis_server import ServerUnavailable
+from worker.redis_folder import ServerUnavailable
 
 LAYOUT = 1
 

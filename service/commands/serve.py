@@ -22,7 +22,7 @@ def serve(**given: Any) -> None:
     from service.settings import ServiceSettings
     from service.supervisor import serve as supervise
     from worker import logs
-    from worker.redis_server import ServerUnavailable
+    from worker.redis_folder import ServerUnavailable
 
     try:
         settings = ServiceSettings(**{name: value for name, value in given.items() if value is not None})

@@ -8,7 +8,8 @@ import pytest
 import redis
 
 from worker.connection import connect
-from worker.redis_server import EmbeddedRedis, ServerUnavailable
+from worker.redis_folder import ServerUnavailable
+from worker.redis_server import EmbeddedRedis
 
 
 def test_what_it_holds_survives_a_kill(tmp_path):
