@@ -7,7 +7,7 @@ from importlib.metadata import version
 from fastapi import Depends, FastAPI
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 
-from service import errors, openapi
+from service import failures, openapi
 from service.backend import opened
 from service.guard import Guard
 from service.headroom import Headroom, room
@@ -42,7 +42,7 @@ def create_app(settings: ServiceSettings) -> FastAPI:
     )
     app.state.headroom = Headroom()
     app.state.metrics = Metrics()
-    errors.install(app)
+    failures.install(app)
     for routes in (animations, segmentations, results, revisions, clips, session, about, health):
         app.include_router(routes.router, dependencies=[Depends(only_known), Depends(room)])
     app.include_router(pages.router)

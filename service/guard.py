@@ -12,7 +12,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from service import rate
 from service.access import LOCAL_OWNER
 from service.backend import Backend
-from service.errors import Refusal, refusal_response, unavailable
+from service.errors import Refusal, refusal_response
+from service.failures import unavailable
 from service.origins import Origins
 from service.settings import ServiceSettings
 from service.visitors import Visitor, visitor

@@ -8,7 +8,7 @@ import redis
 from fastapi import FastAPI
 
 from core import errors as core_errors
-from service import errors
+from service import failures
 from service.errors import STATUS, Refusal, status_of
 from worker.blobs import BlobMissing
 
@@ -16,7 +16,7 @@ from worker.blobs import BlobMissing
 def answered(failure):
     """What a client sees where a route raises `failure`."""
     app = FastAPI()
-    errors.install(app)
+    failures.install(app)
 
     @app.get("/")
     async def route():
