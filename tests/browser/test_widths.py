@@ -40,6 +40,16 @@ def test_nothing_sticks_out_of_its_part_of_the_page(result: Page, width: int) ->
     expect(result.locator("#merge")).to_be_in_viewport()
 
 
+@pytest.mark.parametrize("width", [1120, 1200, 1280])
+def test_the_motion_of_the_moment_is_not_under_the_zoom(result: Page, width: int) -> None:
+    """Beside the player's buttons where there is room, else on a row of its own."""
+    result.set_viewport_size({"width": width, "height": 800})
+    motion, zoom = (result.locator(one).bounding_box() for one in ("#now-motion", ".zoom"))
+    assert motion is not None
+    assert zoom is not None
+    assert motion["x"] + motion["width"] <= zoom["x"] or motion["y"] >= zoom["y"] + zoom["height"]
+
+
 def test_a_cut_is_chosen_moved_and_merged_with_a_thumb(result: Page) -> None:
     """On a phone the tools of the cut take the place of the segment's, and go with it."""
     result.set_viewport_size({"width": 360, "height": 740})
