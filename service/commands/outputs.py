@@ -1,7 +1,7 @@
 """What `caesura segment` writes beside what it prints: one file of a form, or all forms of every file in a folder."""
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -84,7 +84,9 @@ class Outputs:
     options: ClipOptions
 
     @classmethod
-    def of(cls, arguments: Mapping[str, Any], options: ClipOptions, animations: int, folder: Path | None) -> "Outputs":
+    def of(
+        cls, arguments: Mapping[str, Any], options: ClipOptions, animations: Sequence[Path], folder: Path | None
+    ) -> "Outputs":
         """Out of a command's keyword arguments; raises `UsageError` where files would be lost or are not named."""
         forms: dict[str, Path | None] = {}
         for form in FORMS:
@@ -94,13 +96,13 @@ class Outputs:
             flag = f"--{form.replace('_', '-')}"
             if folder is None and given == UNNAMED:
                 raise click.UsageError(f"{flag} needs the name of a file; with --out DIR it needs none.")
-            if folder is None and animations > 1:
+            if folder is None and len(animations) > 1:
                 raise click.UsageError(f"{flag} names one file: give one animation at a time, or a folder with --out.")
             if folder is not None and given != UNNAMED:
                 raise click.UsageError(
                     f"With --out, {flag} takes no name. Put it after the files, or before an option."
                 )
-            forms[form] = None if given == UNNAMED else _place(flag, Path(given), forms.values())
+            forms[form] = None if given == UNNAMED else _place(flag, Path(given), animations, forms.values())
         if options.model_fields_set and "clips" not in forms:
             flag = f"--{min(options.model_fields_set).replace('_', '-')}"
             raise click.UsageError(f"{flag} says how clips are made: it needs --clips beside it.")
@@ -130,7 +132,7 @@ class Outputs:
         _save(path or (target or Path()).with_name(f"{(target or Path()).name}{suffix}"), pieces)
 
 
-def _place(flag: str, path: Path, taken: Iterable[Path | None]) -> Path:
+def _place(flag: str, path: Path, sources: Sequence[Path], taken: Iterable[Path | None]) -> Path:
     """The path, where it can be written and no other form goes there; else `UsageError`, before the long work."""
     if not path.parent.is_dir():
         raise click.UsageError(f"There is no folder '{path.parent}' for {flag}: make it first.")
@@ -138,7 +140,24 @@ def _place(flag: str, path: Path, taken: Iterable[Path | None]) -> Path:
         raise click.UsageError(f"'{path}' is a folder: {flag} needs the name of a file.")
     if any(other is not None and other.resolve() == path.resolve() for other in taken):
         raise click.UsageError(f"'{path}' is named twice: {flag} needs a file of its own.")
+    if path.is_file() and path not in sources and _is_an_animation(path):
+        raise click.UsageError(
+            f"'{path}' is an animation, and {flag} would write over it. Put the files before the options, or name"
+            " another file."
+        )
     return path
+
+
+def _is_an_animation(path: Path) -> bool:
+    """Whether the file holds an animation that is not clips of ours, which may be made again.
+
+    So that `--clips a.glb b.glb`, where both were meant to be cut, loses nothing.
+    """
+    with path.open("rb") as file:
+        start = file.read(20)
+        if start[:4] != b"glTF":
+            return path.suffix.lower() in {".gltf", ".npz", ".bvh"}
+        return b'"caesura"' not in file.read(int.from_bytes(start[12:16], "little"))
 
 
 def _save(path: Path, pieces: Iterable[bytes]) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from samples.figures import figure
 from service.cli import main
 from service.commands.files import targets
 from tests.installation import take_npz
@@ -89,6 +90,7 @@ def test_a_folder_that_cannot_be_written_is_said(takes):
         (["monday/walk.npz", "--csv", "tuesday"], "'tuesday' is a folder"),
         (["monday/walk.npz", "--csv", "one", "--vtt", "./one"], "'one' is named twice"),
         (["monday/walk.npz", "--discard", "A", "--csv", "one.csv"], "--discard says how clips are made"),
+        (["--clips", "monday/walk.npz", "tuesday/walk.npz"], "'monday/walk.npz' is an animation, and --clips would"),
     ],
 )
 def test_wrong_usage_is_said_before_anything_is_computed(takes, monkeypatch, arguments, said):
@@ -114,6 +116,20 @@ def test_a_form_that_a_result_has_not_does_not_cost_the_others(takes):
     assert run.returncode == 3
     assert "[no-key-frames]" in run.stderr
     assert sorted(path.name for path in (takes / "some").iterdir()) == ["walk.csv", "walk.json", "walk.svg"]
+
+
+def test_clips_replace_clips_and_their_source_but_no_other_model(takes):
+    """An option that swallowed the first of two files would have written the second's clips over it."""
+    for name in ("one.glb", "two.glb"):
+        (takes / name).write_bytes(figure("rigid").glb)
+    source = (takes / "one.glb").read_bytes()
+    swallowed = caesura(takes, "segment", "--clips", "one.glb", "two.glb", "--motions", "2")
+    assert swallowed.returncode == 2
+    assert "'one.glb' is an animation" in swallowed.stderr
+    assert (takes / "one.glb").read_bytes() == source
+    for name in ("clips.glb", "clips.glb", "two.glb"):
+        run = caesura(takes, "segment", "two.glb", "--clips", name, "--motions", "2")
+        assert run.returncode == 0, run.stderr
 
 
 def test_pipes_and_links_stay_what_they_are(takes):
