@@ -209,7 +209,7 @@ def main() -> None:
     given = options.parse_args()
     quick = given.quick
     turns, frames = (2, 1_280) if quick else (5, 4_580)
-    rows = [*against_copy(turns, frames), *against_copy_of_large(turns, 50_000 if quick else 200_000)]
+    rows = [*against_copy(5 * turns, frames), *against_copy_of_large(2 * turns, 50_000 if quick else 200_000)]
     rows += [*against_twin(1 if quick else 3), *breakdown(turns, 640)]
     grown, series = growth(QUICK_GROWTH if quick else GROWTH, 1 if quick else 3)
     rows += [*grown, *against_ruptures(given.peers, 1, 1_000 if quick else 4_580)]
