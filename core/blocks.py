@@ -11,13 +11,14 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from itertools import islice
 from typing import TypeVar
 
+from core.descriptors.kernels import WIDTH
 from core.progress import Progress, ignore
 
 BLOCK_BYTES = 192 * 2**20
 BLOCKS_BYTES = 4 * BLOCK_BYTES
 """Memory for the blocks of all threads together."""
 SMALL_BLOCK_BYTES = 4 * 2**20
-WIDTH, MOST_FRAMES = 64, 512
+MOST_FRAMES = 512
 HEARTBEAT_SECONDS = 0.2
 
 Item = TypeVar("Item")
@@ -28,7 +29,7 @@ Block = tuple[int, int]
 
 
 def frames_per_block(vertex_count: int) -> int:
-    """8 to 512 frames: as many as `SMALL_BLOCK_BYTES` hold of float32 vertices or 64, but fewer beyond `BLOCK_BYTES`.
+    """8 to 512 frames: as many as `SMALL_BLOCK_BYTES` hold of float32 vertices or `WIDTH`; fewer beyond `BLOCK_BYTES`.
 
     Of small meshes many, for what is done once a block would be a good part of the work.
     """

@@ -87,7 +87,9 @@ _MODERATE_BITS = MODERATE.view(np.int32)
 def _moderate_log_strains(
     rows: Floats, corners: Indices, shapes: Floats, scale: Floats, scratch: Floats, tile: Floats, tops: Indices
 ) -> None:
-    """tile[t, f] = log strain without a logarithm, good to a part in a million up to `MODERATE`; tops[t].
+    """tile[t, f] = log strain without a logarithm, good to a part in a million up to `MODERATE`.
+
+    tops[t]: the bits of the largest.
 
     With λ1 ≥ λ2 the squared stretches, ln²σ1 + ln²σ2 = (p² + q²) / 2 where p = atanh((λ1 λ2 − 1) / (λ1 λ2 + 1)) and
     q = atanh((λ1 − λ2) / (λ1 + λ2)). Both squares are rational in E, B and G: one division and one root a triangle.

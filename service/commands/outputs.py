@@ -140,7 +140,7 @@ def _place(flag: str, path: Path, sources: Sequence[Path], taken: Iterable[Path 
         raise click.UsageError(f"'{path}' is a folder: {flag} needs the name of a file.")
     if any(other is not None and other.resolve() == path.resolve() for other in taken):
         raise click.UsageError(f"'{path}' is named twice: {flag} needs a file of its own.")
-    if path.is_file() and path not in sources and _is_an_animation(path):
+    if path.is_file() and not any(map(path.samefile, sources)) and _is_an_animation(path):
         raise click.UsageError(
             f"'{path}' is an animation, and {flag} would write over it. Put the files before the options, or name"
             " another file."

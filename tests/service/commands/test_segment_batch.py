@@ -127,7 +127,7 @@ def test_clips_replace_clips_and_their_source_but_no_other_model(takes):
     assert swallowed.returncode == 2
     assert "'one.glb' is an animation" in swallowed.stderr
     assert (takes / "one.glb").read_bytes() == source
-    for name in ("clips.glb", "clips.glb", "two.glb"):
+    for name in ("clips.glb", "clips.glb", takes / "two.glb"):
         run = caesura(takes, "segment", "two.glb", "--clips", name, "--motions", "2")
         assert run.returncode == 0, run.stderr
 
