@@ -14,6 +14,9 @@ from core.limits import Limits
 
 MOST_MEMBERS = 16
 LONGEST_DIRECTORY = 2**16
+LONGEST_NAME = 500
+"""Letters of a member's name, with its folders."""
+
 ENCRYPTED = 1
 END, LOCAL = struct.Struct("<4s4H2LH"), struct.Struct("<4s5H3L2H")
 NUMBER_CODES = {"f2": "e", "f4": "f", "f8": "d"} | {
@@ -106,16 +109,11 @@ class Archive:
         members: dict[str, zipfile.ZipInfo] = {}
         for info in self._zip.infolist():
             name = info.filename.removesuffix(".npy")
-            if info.flag_bits & ENCRYPTED:
-                raise malformed("is encrypted")
+            check_member(info)
             if name.startswith("__MACOSX/"):
                 continue  # what a Mac adds of its own
             if name in members or "/" in name or "\\" in name or ".." in name:
                 raise malformed(f"has a member {info.filename[:80]!r}, a path or there twice")
-            if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
-                raise malformed("is compressed in another way than deflate")
-            if info.compress_type == zipfile.ZIP_STORED and info.compress_size != info.file_size:
-                raise malformed(f"has two sizes for {info.filename[:80]!r}")
             members[name] = info
         if not any(info.filename.endswith(".npy") for info in members.values()):
             raise UnsupportedMedia(
@@ -124,6 +122,18 @@ class Archive:
         inflated = sum(info.file_size for info in members.values() if info.compress_type == zipfile.ZIP_DEFLATED)
         limits.check("max_inflated_bytes", inflated, "Save with numpy.savez instead of savez_compressed")
         return members
+
+
+def check_member(info: zipfile.ZipInfo) -> None:
+    """Raise `malformed-npz` for a member that is not read, whatever it is called."""
+    if len(info.filename) > LONGEST_NAME:
+        raise malformed(f"has a member whose name is longer than {LONGEST_NAME} letters: {info.filename[:40]!r} …")
+    if info.flag_bits & ENCRYPTED:
+        raise malformed("is encrypted")
+    if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+        raise malformed("is compressed in another way than deflate")
+    if info.compress_type == zipfile.ZIP_STORED and info.compress_size != info.file_size:
+        raise malformed(f"has two sizes for {info.filename[:80]!r}")
 
 
 @contextmanager

@@ -7,12 +7,12 @@ from contextlib import contextmanager
 from typing import BinaryIO
 
 from core.errors import BrokenContainer, InvalidModel, UnsupportedMedia
-from core.formats.archive import ENCRYPTED, Archive, malformed
+from core.formats.archive import Archive, check_member, malformed
 from core.limits import Limits
 
 MODELS = (".gltf", ".glb", ".bvh")
 SHAPES = (".obj", ".ply")
-NUMBER = re.compile(r"(\d+)\D*$")
+NUMBER = re.compile(r"\d+")
 
 
 class ZipFiles(Archive):
@@ -65,15 +65,10 @@ class ZipFiles(Archive):
         members: dict[str, zipfile.ZipInfo] = {}
         for info in self._zip.infolist():
             name = info.filename
-            if info.flag_bits & ENCRYPTED:
-                raise malformed("is encrypted")
+            check_member(info)
             leads_out = name.startswith("/") or "\\" in name or ".." in name.split("/") or ":" in name
             if not name or name in members or leads_out:
                 raise malformed(f"has a member {name[:80]!r}, without a name, a path out of it or there twice")
-            if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
-                raise malformed("is compressed in another way than deflate")
-            if info.compress_type == zipfile.ZIP_STORED and info.compress_size != info.file_size:
-                raise malformed(f"has two sizes for {name[:80]!r}")
             if not info.is_dir() and not name.startswith("__MACOSX/"):
                 members[name] = info
         limits.check(
@@ -98,5 +93,6 @@ def archive_within(name: str) -> UnsupportedMedia:
 
 
 def _number(name: str) -> int:
-    found = NUMBER.search(name.rpartition(".")[0])
-    return int(found[1]) if found and len(found[1]) < 19 else -1
+    """The last number in a name; -1 where there is none that counts frames."""
+    found = NUMBER.findall(name.rpartition(".")[0])
+    return int(found[-1]) if found and len(found[-1]) < 19 else -1

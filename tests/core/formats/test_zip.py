@@ -2,6 +2,7 @@
 
 import io
 import json
+import time
 import zipfile
 from contextlib import suppress
 
@@ -9,7 +10,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from core.errors import CaesuraError, InvalidModel, LimitExceeded
+from core.errors import BrokenContainer, CaesuraError, InvalidModel, LimitExceeded
 from core.formats.header import read_header
 from core.limits import Limits
 from tests.core.formats.opening import codes, opened
@@ -154,3 +155,27 @@ def test_bombs_and_broken_zips_are_refused_by_their_directory() -> None:
         with pytest.raises(CaesuraError) as refused:
             opened(broken)
         assert refused.value.code == "malformed-zip"
+
+
+SHAPE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+
+
+@pytest.mark.parametrize("name", [f"{'1' * 60_000}a1.obj", f"{'1' * 60_000}.obj", f"{'x' * 501}1.npy"])
+def test_a_name_of_many_digits_is_refused_at_once(name: str) -> None:
+    """A pattern for the number of a frame was tried at each of 60,000 digits, for a minute."""
+    data = zipped({name: SHAPE, "a2.obj": SHAPE})
+    began = time.process_time()
+    with pytest.raises(BrokenContainer, match="longer than 500 letters"):
+        read_header(io.BytesIO(data), "x.zip", Limits())
+    with pytest.raises(BrokenContainer, match="longer than 500 letters"):
+        opened(data)
+    assert time.process_time() - began < 2
+
+
+def test_names_of_digits_are_read_in_linear_time() -> None:
+    """The last number counts, up to 18 digits."""
+    names = [f"{'1' * 480}a{i}.obj" for i in range(400)]
+    began = time.process_time()
+    animation = opened(zipped(dict.fromkeys(names[::-1], SHAPE)))
+    assert (animation.frames, animation.vertex_count) == (400, 3)
+    assert time.process_time() - began < 2
