@@ -1,17 +1,17 @@
 """A zip, read: its glTF with what lies beside it, or its shapes as the frames of one mesh."""
 
-import io
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
-import trimesh
-from jaxtyping import Float, Int
+from jaxtyping import Int
 
 from core.animation import Animation
 from core.errors import InvalidModel
 from core.formats.notices import Notices
 from core.formats.npz import check_sum, inflated, sequence
+from core.formats.obj import read_obj
+from core.formats.ply import read_ply
+from core.formats.polygon_mesh import PolygonMesh
 from core.formats.vertex_sequence import finite
 from core.formats.zip_files import ZipFiles, told_as_zip
 from core.limits import Limits
@@ -35,45 +35,49 @@ def read_shapes(
 ) -> Animation:
     """The animation of numbered OBJ or PLY files, whose vertices and faces must be the same in all.
 
-    Raises `varying-topology` naming the file, `no-motion`, `no-mesh`, `malformed-shape` or `non-finite-data`.
+    Raises `varying-topology` naming the file, `no-motion`, `no-mesh`, `malformed-shape`, `index-out-of-range` or
+    `non-finite-data`.
     """
     names = files.shapes()
     limits.check("max_frames", len(names), "Send fewer files")
-    first, triangles = _shape(files, names[0], data)
+    first = _shape(files, names[0], data, limits)
     if len(names) < 2:
         raise InvalidModel("no-motion", "The zip has one shape; a motion needs two, numbered in their names.")
-    limits.check("max_vertices", len(first))
-    limits.check("max_triangles", len(triangles))
-    size = len(names) * first.size * 4
+    notices = Notices()
+    triangles = _triangles(first, names[0], notices)
+    size = len(names) * first.vertices.size * 4
     limits.check("max_inflated_bytes", size, "Send fewer files")
-    stored = np.frombuffer(scratch(size), np.float32).reshape(len(names), len(first), 3)
+    stored = np.frombuffer(scratch(size), np.float32).reshape(len(names), len(first.vertices), 3)
     for frame, name in enumerate(names):
-        places, faces = _shape(files, name, data) if frame else (first, triangles)
-        if places.shape != first.shape or not np.array_equal(faces, triangles):
+        shape = _shape(files, name, data, limits) if frame else first
+        if not shape.has_polygons_of(first):
             raise InvalidModel(
                 "varying-topology",
-                f"{name[:80]!r} has {len(places)} vertices and {len(faces)} triangles that are not those of "
+                f"{name[:80]!r} has {len(shape.vertices)} vertices and {len(shape.sizes)} faces that are not those of "
                 f"{names[0][:80]!r}. All frames must have the same.",
                 frame=frame,
             )
-        stored[frame] = places
-    return sequence(stored, triangles, None, None, parameters, limits, Notices())
+        stored[frame] = shape.vertices
+        if not finite(stored[frame]):
+            raise InvalidModel("non-finite-data", f"{name[:80]!r} has a vertex that is not at a finite place.")
+    return sequence(stored, triangles, None, None, parameters, limits, notices)
 
 
-def _shape(files: ZipFiles, name: str, data: memoryview) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "T 3"]]:
+def _shape(files: ZipFiles, name: str, data: memoryview, limits: Limits) -> PolygonMesh:
     raw = bytes(member(files, name, data, lambda size: memoryview(bytearray(size))))
+    read = read_obj if name.lower().endswith(".obj") else read_ply
     try:
-        options: dict[str, Any] = {"process": False, "maintain_order": True, "skip_materials": True}
-        mesh = trimesh.load_mesh(io.BytesIO(raw), file_type=name[-3:].lower(), **options)
-        places, faces = np.asarray(mesh.vertices, np.float32), np.asarray(mesh.faces, np.int64)
-    except MemoryError:
-        raise
-    except Exception as wrong:  # noqa: BLE001  # a reader of free text may stumble in any way
-        raise InvalidModel("malformed-shape", f"{name[:80]!r} cannot be read ({str(wrong)[:120]}).") from None
-    if places.shape[1:] != (3,) or faces.shape[1:] != (3,) or not len(places) or not len(faces):
+        return read(raw, limits)
+    except InvalidModel as wrong:
+        raise InvalidModel(wrong.code, f"{name[:80]!r} {wrong.detail}. Export it again.") from None
+
+
+def _triangles(shape: PolygonMesh, name: str, notices: Notices) -> Int[np.ndarray, "T 3"]:
+    if not len(shape.vertices) or not (shape.sizes > 2).any():
         raise InvalidModel("no-mesh", f"{name[:80]!r} has no triangles in space.")
-    if faces.min() < 0 or faces.max() >= len(places):
+    if shape.corners.min() < 0 or shape.corners.max() >= len(shape.vertices):
         raise InvalidModel("index-out-of-range", f"{name[:80]!r} names vertices that it does not have.")
-    if not finite(places):
-        raise InvalidModel("non-finite-data", f"{name[:80]!r} has a vertex that is not at a finite place.")
-    return places, faces
+    triangles = shape.triangles()
+    if repeated := int(np.maximum(shape.sizes - 2, 0).sum()) - len(triangles):
+        notices.add("triangles-repeated", f"{repeated} triangles have the same corners as others, and count once.")
+    return triangles
