@@ -9,7 +9,6 @@ from core.formats.clips.options import ClipOptions
 from core.formats.clips.plan import Clip, plan
 from core.formats.clips.replacement import Replacement
 from core.formats.clips.stretches import gltf_stretches
-from core.formats.gltf.take import take_names
 
 
 def planned(file: Replacement, document: SegmentationDocument, options: ClipOptions) -> tuple[Clip, ...]:
@@ -17,7 +16,7 @@ def planned(file: Replacement, document: SegmentationDocument, options: ClipOpti
     stretches = gltf_stretches(file, document)
     replaced = {stretch.take for stretch in stretches} if not options.keep_source else set()
     beside = options.files == "one" and not options.animation_only
-    staying = [n for number, n in enumerate(take_names(file.document)) if beside and number not in replaced]
+    staying = [n for number, n in enumerate(file.document.take_names) if beside and number not in replaced]
     return plan(document, options, stretches, staying)
 
 

@@ -8,6 +8,7 @@ from core.formats.budget import Budget
 from core.formats.gltf.container import open_container
 from core.formats.gltf.entry import Entry
 from core.formats.notices import Notices
+from core.formats.takes import LONGEST, take_name
 from core.limits import Limits
 
 HARMLESS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_", "KHR_lights_", "EXT_lights_", "KHR_xmp")
@@ -60,6 +61,17 @@ class Document:
         """All animations, the takes."""
         self.limits.check("max_takes", len(self.root.values("animations")), pointer="/animations")
         return self.root.entries("animations")
+
+    @cached_property
+    def take_names(self) -> list[str]:
+        """The names of all takes; that one is shortened is noted."""
+        given = [entry.value.get("name") for entry in self.animations]
+        for name in given:
+            if isinstance(name, str) and len(name) > LONGEST:
+                self.notices.add(
+                    "take-name-shortened", f"{name[:40]!r} … is the name of a take; {LONGEST} letters are kept."
+                )
+        return [take_name(name, place) for place, name in enumerate(given)]
 
     @cached_property
     def accessors(self) -> list[Entry]:

@@ -11,8 +11,8 @@ FLOAT = 5126
 MOST_KEYS = 10_000
 """Keys that are asked for the rate of a take: a long one has no more to tell."""
 
-MOST_READS = 200
-"""Lists of key times that are read; a file with more takes is told the rest by their bounds."""
+MOST_KEYS_IN_ALL = 100_000
+"""Keys that are read of all takes together; a file with more is told the rest by their bounds."""
 
 
 class KeyTimes:
@@ -21,7 +21,7 @@ class KeyTimes:
     def __init__(self, file: BinaryIO, end_of_json: int, json: dict[str, Any]) -> None:
         self._file = file
         self._json = json
-        self._reads = 0
+        self._left = MOST_KEYS_IN_ALL
         self._start = end_of_json + CHUNK.size
         file.seek(end_of_json)
         chunk = file.read(CHUNK.size)
@@ -31,10 +31,10 @@ class KeyTimes:
     def __call__(self, accessor: Any) -> tuple[float, ...]:
         """Seconds of the first keys in an accessor, at most `MOST_KEYS`; none where they are not plain."""
         place = self._place(accessor)
-        if place is None or self._reads == MOST_READS:
+        count = 0 if place is None else min(accessor["count"], MOST_KEYS)
+        if place is None or count > self._left:
             return ()
-        self._reads += 1
-        count = min(accessor["count"], MOST_KEYS)
+        self._left -= count
         self._file.seek(self._start + place)
         data = self._file.read(4 * count)
         if len(data) < 4 * count:  # the chunk is longer than the file

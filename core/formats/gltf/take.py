@@ -6,7 +6,7 @@ from core.errors import InvalidModel
 from core.formats.gltf.accessors import Accessors
 from core.formats.gltf.channels import Channel, read_channels
 from core.formats.gltf.document import Document
-from core.formats.takes import choose_take, take_name
+from core.formats.takes import choose_take
 
 
 @dataclass(frozen=True)
@@ -20,15 +20,15 @@ class ChosenTake:
 
 def chosen_takes(document: Document, accessors: Accessors, wanted: str | int) -> list[ChosenTake]:
     """The take that is wanted, or with `all` every take that moves something; raises as `choose_animation` does."""
-    if wanted != "all" or len(document.animations) < 2 or "all" in take_names(document):
+    if wanted != "all" or len(document.animations) < 2 or "all" in document.take_names:
         return [
             ChosenTake(
                 *choose_animation(
-                    document, accessors, "longest" if wanted == "all" and "all" not in take_names(document) else wanted
+                    document, accessors, "longest" if wanted == "all" and "all" not in document.take_names else wanted
                 )
             )
         ]
-    names = take_names(document)
+    names = document.take_names
     every = [
         ChosenTake(place, names[place], read_channels(document, accessors, entry))
         for place, entry in enumerate(document.animations)
@@ -50,7 +50,7 @@ def choose_animation(document: Document, accessors: Accessors, wanted: str | int
             f"{len(document.nodes)} nodes. Export it with its animations.",
             pointer="/animations",
         )
-    names = take_names(document)
+    names = document.take_names
     place = choose_take(names, wanted) if len(names) > 1 or wanted != "longest" else 0
     if place is None:
         lengths = [last_key(accessors, read_channels(document, accessors, entry)) for entry in animations]
@@ -59,11 +59,6 @@ def choose_animation(document: Document, accessors: Accessors, wanted: str | int
     if not channels:
         raise InvalidModel("no-animation", f"Take {names[place]!r} moves nothing.", pointer=animations[place].pointer)
     return place, names[place], channels
-
-
-def take_names(document: Document) -> list[str]:
-    """The names of all takes."""
-    return [take_name(entry.value.get("name"), place) for place, entry in enumerate(document.animations)]
 
 
 def last_key(accessors: Accessors, channels: list[Channel]) -> float:

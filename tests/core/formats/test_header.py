@@ -4,6 +4,7 @@ import io
 import struct
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -124,3 +125,29 @@ def test_a_rate_that_is_none_leaves_a_take_that_can_be_told(rate: float) -> None
     """Seconds are a finite number, as JSON needs, whatever the file says of its rate."""
     (take,) = header(archive(vertices=np.zeros((11, 4, 3)), triangles=np.zeros((2, 3), int), frame_rate=rate)).takes
     assert (take.frame_rate, take.frames) == (30.0, 11)
+
+
+def test_long_names_of_many_takes_make_a_small_header() -> None:
+    """A name is cut to a hundred letters, which its last letter says; a thousand takes are read."""
+    model = square()
+    model.animate(0, "scale", [0, 1], np.ones((2, 3)))
+    model.json["animations"] = [{**model.json["animations"][0], "name": f"{i} {'x' * 3000}"} for i in range(1000)]
+    takes = header(model.glb()).takes
+    assert (len(takes), sum(len(take.name) for take in takes)) == (1000, 100_000)
+    assert takes[7].name == f"7 {'x' * 97}…"
+    model.json["animations"].append({})
+    with pytest.raises(LimitExceeded, match="CAESURA_MAX_TAKES"):
+        header(model.glb())
+
+
+def test_the_keys_of_many_takes_are_read_in_little_time() -> None:
+    """Uneven keys of two hundred takes held the web process up for eight seconds."""
+    model = square()
+    times = np.sort(np.random.default_rng(0).uniform(0, 1000, 10_000))
+    model.animate(0, "scale", times, np.ones((len(times), 3)))
+    model.json["accessors"][model.json["animations"][0]["samplers"][0]["input"]] |= {"min": [0], "max": [1000]}
+    model.json["animations"] *= 200
+    began = time.process_time()
+    takes = header(model.glb()).takes
+    assert time.process_time() - began < 2
+    assert {round(take.duration_seconds) for take in takes} == {1000}
