@@ -11,7 +11,7 @@ from core.animation import Animation
 from core.errors import InvalidModel, ParameterError
 from core.feature_sequence import cut_features
 from core.formats.notices import Notices
-from core.formats.npz import sequence
+from core.formats.npz import check_triangles, sequence
 from core.formats.read import read_animation
 from core.limits import Limits
 from core.parameters import Parameters
@@ -102,22 +102,19 @@ def _of_arrays(
         )
     if not (np.isfinite(frame_rate) and frame_rate > 0):
         raise ParameterError("invalid-frame-rate", f"The frame rate is {frame_rate:g}; frames per second are expected.")
-    faces = _triangles(triangles, vertices.shape[1])
+    notices = Notices()
+    faces = _triangles(triangles, vertices.shape[1], notices)
     shape = None if rest_shape is None else np.asarray(rest_shape, np.float32)
     if shape is not None and (shape.shape != vertices.shape[1:] or not np.isfinite(shape).all()):
         raise InvalidModel("wrong-shape", f"The rest shape is one finite point for each vertex: {vertices.shape[1:]}.")
-    return sequence(vertices, faces, shape, float(frame_rate), chosen, Limits.none(), Notices())
+    return sequence(vertices, faces, shape, float(frame_rate), chosen, Limits.none(), notices)
 
 
-def _triangles(given: ArrayLike | None, vertices: int) -> np.ndarray:
+def _triangles(given: ArrayLike | None, vertices: int, notices: Notices) -> np.ndarray:
     faces = np.zeros((0, 3), np.int64) if given is None else np.asarray(given)
-    if faces.ndim != 2 or faces.shape[1] != 3 or faces.dtype.kind not in "iu":
+    if faces.ndim != 2 or faces.shape[1] != 3 or faces.dtype.kind not in "iuf":
         raise InvalidModel("wrong-shape", f"Triangles are whole numbers of shape (T, 3); these are {faces.shape}.")
-    if faces.size and not 0 <= int(faces.min()) <= int(faces.max()) < vertices:
-        raise InvalidModel(
-            "index-out-of-range", f"Triangles name vertices from {faces.min()} to {faces.max()}, of {vertices}."
-        )
-    return np.ascontiguousarray(faces, np.int64)
+    return check_triangles(faces, vertices, notices)
 
 
 def _refuse_reading(parameters: Mapping[str, Any]) -> None:

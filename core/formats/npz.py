@@ -40,7 +40,7 @@ def read_npz(
     def array(what: str) -> Shaped[np.ndarray, "..."]:
         return _array(archive, names[what], headers[what], data, scratch)
 
-    triangles = _triangles(array("triangles"), headers["vertices"].shape[1])
+    triangles = check_triangles(array("triangles"), headers["vertices"].shape[1], notices)
     stored_rate = _frame_rate(array("frame_rate")) if "frame_rate" in names else None
     rest = array("rest").astype(np.float32) if "rest" in names else None
     if rest is not None and not finite(rest):
@@ -114,9 +114,15 @@ def inflated(archive: Archive, name: str, room: memoryview) -> memoryview:
     return room
 
 
-def _triangles(stored: Shaped[np.ndarray, "T 3"], vertices: int) -> Int[np.ndarray, "T 3"]:
-    if stored.dtype.kind == "f" and not (np.isfinite(stored).all() and (stored == np.floor(stored)).all()):
-        raise InvalidModel("unsupported-dtype", "Triangles must be whole numbers.", pointer="/triangles")
+def check_triangles(stored: Shaped[np.ndarray, "T 3"], vertices: int, notices: Notices) -> Int[np.ndarray, "T 3"]:
+    """The triangles as integers. Floats are taken where they are whole numbers, and that is noted.
+
+    Raises `InvalidModel`: `unsupported-dtype` or `index-out-of-range`.
+    """
+    if stored.dtype.kind == "f":
+        if not (np.isfinite(stored).all() and (stored == np.floor(stored)).all()):
+            raise InvalidModel("unsupported-dtype", "Triangles must be whole numbers.", pointer="/triangles")
+        notices.add("float-triangles", "Triangles are stored as floats. All are whole numbers, and were taken.")
     if not ((stored >= 0) & (stored < vertices)).all():
         raise InvalidModel(
             "index-out-of-range",

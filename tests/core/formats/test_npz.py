@@ -86,5 +86,7 @@ def test_any_number_in_any_order_is_accepted(dtype: str, order: Any) -> None:
 
 @pytest.mark.parametrize("dtype", ["u1", "<i2", ">i4", "<u4", "<i8", "<u8", "<f4", ">f8"])
 def test_triangles_may_be_any_whole_numbers(dtype: str) -> None:
-    """Floats too, where they are whole."""
-    np.testing.assert_array_equal(opened(npz(triangles=TRIANGLES.astype(dtype))).triangles, TRIANGLES)
+    """Floats too, where they are whole; that is said."""
+    animation = opened(npz(triangles=TRIANGLES.astype(dtype), frame_rate=30))
+    np.testing.assert_array_equal(animation.triangles, TRIANGLES)
+    assert codes(animation) == ({"float-triangles"} if "f" in dtype else set())
