@@ -94,8 +94,12 @@ class Coding:
         return Coding(self.gain / 2**8)
 
     def reaches_percentile(self, histogram: Int[np.ndarray, "codes"], percent: float = PERCENTILE) -> bool:
-        """Whether the percentile is below the last code, which stands for everything above it too."""
-        return int(histogram[-1]) <= int(histogram.sum()) * (1 - percent / 100)
+        """Whether the percentile is below the last code, which stands for everything above it too.
+
+        By the same rank as `percentile`: else a few values, most of them far below, are measured again for ever.
+        """
+        total = int(histogram.sum())
+        return (total - 1) * percent / 100 < total - int(histogram[-1])
 
     def percentile(self, histogram: Int[np.ndarray, "codes"], percent: float = PERCENTILE) -> float:
         """The value that `percent` of all values do not exceed, as `np.percentile` defines it.

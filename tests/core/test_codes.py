@@ -91,3 +91,12 @@ def test_codes_from_a_floor_on_are_counted_one_by_one_and_all_below_together():
     np.testing.assert_array_equal(found, expected)
     assert largest == values.max()
     assert above == (values > noise[:, None]).sum()
+
+
+def test_the_percentile_of_two_values_is_measured_once_more_at_most():
+    """One of them far below the other: the code that tells it lumps the other with all above, and that is right."""
+    values, coding = np.float32([[1e-4, 0.5]]), Coding.around(0.5)
+    counts = histogram(coding, values)
+    again = Coding.around(coding.percentile(counts))
+    assert not coding.tells_edges(coding.percentile(counts), 10, counts)
+    assert again.reaches_percentile(histogram(again, values))
