@@ -44,7 +44,7 @@ class WorkerSettings(Limits, BaseSettings):
         "", description="a .ttf or .otf file for names in PNG plots; empty: plain letters alone"
     )
     log_format: Literal["text", "json"] = Field("text", description="log lines: `text` for people, `json` for machines")
-    min_free_bytes: int = Field(512 * 2**20, ge=0, description="bytes that stay free on the disk; below, no new work and no files of results")
+    min_free_bytes: int = Field(512 * 2**20, ge=0, description="bytes that stay free on the disk; below, no new work")
 
     @property
     def limits(self) -> Limits:

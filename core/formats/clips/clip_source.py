@@ -1,4 +1,4 @@
-"""What a clip takes over of a file. Each clip is a copy, so the author's own data (`extras`) goes along only if small."""
+"""What a clip takes over of a file. Each clip is a copy, so the author's own data (`extras`) goes along if small."""
 
 import json
 from collections import deque
