@@ -22,6 +22,7 @@ from worker.settings import WorkerSettings
 
 READY_SECONDS = 90
 STOP_SECONDS = 60
+MIN_FREE_BYTES = 2**24
 SECRET = "the same ids in every run"
 
 
@@ -40,7 +41,12 @@ class House:
         if self._process is not None and self._process.poll() is None:
             return
         kept = {name: value for name, value in os.environ.items() if name != "REDIS_URL"}
-        environment = {**kept, "CAESURA_DATA_DIR": str(self.folder), "CAESURA_SECRET": SECRET}
+        environment = {
+            **kept,
+            "CAESURA_DATA_DIR": str(self.folder),
+            "CAESURA_SECRET": SECRET,
+            "CAESURA_MIN_FREE_BYTES": str(MIN_FREE_BYTES),
+        }
         with (self.folder / "log").open("ab") as log:
             self._process = subprocess.Popen(
                 [sys.executable, "-m", "service.cli", "serve", "--port", self.url.rpartition(":")[2]],

@@ -42,6 +42,7 @@ def verdict(house: House, expected: int, seen: Seen, quiet: Seen | None) -> Verd
     house.until_ready()
     jobs, said = house.jobs(), Verdict()
     said.counts["accounted for"] = len(seen.results)
+    said.counts["clips fetched"] = len(seen.clips)
     said.none("lost", seen.lost)
     said.none("stuck", _stuck(jobs, expected, seen))
     said.none("duplicated", _duplicated(house, jobs, expected, seen))
@@ -64,6 +65,8 @@ def _stuck(jobs: Jobs, expected: int, seen: Seen) -> list[str]:
         time.sleep(0.2)
     live = [f"{record.id} is {record.status}" for record in jobs.records.segmentations.live()]
     queued = [f"{depth} jobs wait on {name}" for name, depth in jobs.queues.depths().items() if depth]
+    missing = max(len(seen.results) - len(seen.clips) - len(seen.wrong), 0)
+    live += ["clips were never made"] * missing
     missing = expected - len(seen.results) - len(seen.lost) - len(seen.wrong)
     return [*live, *queued, *(["a take was never done"] * max(missing, 0))]
 
@@ -85,11 +88,13 @@ def _duplicated(house: House, jobs: Jobs, expected: int, seen: Seen) -> list[str
 
 def _different(seen: Seen, quiet: Seen) -> list[str]:
     """Results that are not, byte for byte, those of the run that was left in peace."""
-    return [
+    results = [
         f"take {number}"
         for number, (identifier, _, content) in seen.results.items()
         if number in quiet.results and (identifier, content) != (quiet.results[number][0], quiet.results[number][2])
     ]
+    clips = quiet.clips
+    return [*results, *(f"clips of take {n}" for n, found in seen.clips.items() if clips.get(n, found) != found)]
 
 
 def _leftover(house: House, jobs: Jobs, said: Verdict) -> list[str]:

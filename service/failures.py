@@ -1,6 +1,5 @@
 """Every way a request can fail, answered as a problem document. Routes raise; none of them catches."""
 
-import errno
 import logging
 
 from fastapi import FastAPI, Request, Response
@@ -13,6 +12,8 @@ from starlette.requests import ClientDisconnect
 from core.errors import CaesuraError
 from service.errors import Refusal, problem_response, refusal_response
 from worker.blobs import BlobMissing
+from worker.connection import refuses_writes
+from worker.disk_space import FULL, storage_full
 
 log = logging.getLogger(__name__)
 
@@ -28,6 +29,7 @@ def install(app: FastAPI) -> None:
     app.exception_handler(StoreError)(_store_unavailable)
     for full in (redis.OutOfMemoryError, redis.ReadOnlyError):
         app.exception_handler(full)(_full)
+    app.exception_handler(redis.ResponseError)(_refused_write)
     app.exception_handler(BlobMissing)(_no_longer_kept)
     app.exception_handler(OSError)(_storage)
     app.exception_handler(Exception)(_bug)
@@ -72,11 +74,18 @@ async def _no_longer_kept(_: Request, __: Exception) -> Response:
 
 async def _storage(_: Request, error: OSError) -> Response:
     """No room left is said as such; any other trouble with a file is a fault of ours."""
-    if error.errno not in {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}:
+    if error.errno not in FULL:
         raise error
     log.error("No room left: %s", error)
-    detail = "The service has no room left for this. Nothing was kept; tell its keeper, or try again later."
-    return problem_response({"kind": "request", "code": "storage-full", "detail": detail})
+    return problem_response(storage_full().problem())
+
+
+async def _refused_write(_: Request, error: redis.ResponseError) -> Response:
+    """Redis's disk is full; any other refusal of a command is a fault of ours."""
+    if not refuses_writes(error):
+        raise error
+    log.error("Redis takes no writes: its disk is full")
+    return problem_response(storage_full().problem())
 
 
 async def _unavailable(_: Request, error: Exception) -> Response:

@@ -17,6 +17,7 @@ from service.failures import unavailable
 from service.origins import Origins
 from service.settings import ServiceSettings
 from service.visitors import Visitor, visitor
+from worker.connection import tolerate_full_disk
 
 PROBES = frozenset({"/healthz", "/readyz"})
 SESSION = "/v1/session"
@@ -94,7 +95,10 @@ class Guard:
             return {}
         address = request.client.host if request.client else ""
         who = "" if known is None else known.key
-        return (await rate.take(backend.records.redis, who, address, self._limit)).headers()
+        allowed: rate.Allowed | None = None
+        with tolerate_full_disk():  # who reads or deletes then is not counted
+            allowed = await rate.take(backend.records.redis, who, address, self._limit)
+        return {} if allowed is None else allowed.headers()
 
 
 def _is_page(path: str) -> bool:

@@ -16,6 +16,7 @@ from redis.exceptions import RedisError
 
 from service.backend import Backend, Behind
 from service.errors import Refusal
+from worker.connection import refuses_writes
 
 FULL = 0.8
 """Share of the memory that Redis may use above which no more work is taken."""
@@ -50,6 +51,7 @@ async def looked(backend: Backend) -> str:
 def _look(backend: Backend) -> str:
     settings = backend.settings
     try:
+        backend.jobs.redis.ping()
         if _redis_share(backend.jobs.redis) >= FULL:
             return f"Redis uses {FULL:.0%} of the memory it may, and takes no more work until results have gone."
         backend.spool.mkdir(parents=True, exist_ok=True)
@@ -58,8 +60,8 @@ def _look(backend: Backend) -> str:
         if shutil.disk_usage(backend.spool).free < settings.min_free_bytes:
             return "The disk of the service is nearly full, and takes no more work until something has gone."
         backend.blobs.reach()
-    except RedisError:
-        return "The service cannot use Redis just now."
+    except RedisError as error:
+        return "The disk of Redis is full." if refuses_writes(error) else "The service cannot use Redis just now."
     except (OSError, StoreError):
         return "The service cannot use its store just now."
     return ""

@@ -18,7 +18,8 @@ LONGEST_NAME = 200
 def keep(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tuple[AnimationRecord, bool]:
     """The animation these files are, and whether it is new. Blocks: run it on a thread.
 
-    The same files again are the same animation, whatever they are called now. Raises what the header's reader
+    The same files again are the same animation, whatever they are called now; one of which the store has lost a file is
+    stored again. Raises what the header's reader
     raises; nothing is kept then.
     """
     main = _main(backend, parts)
@@ -26,7 +27,11 @@ def keep(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tu
     described = [(part.name, part.bytes, part.sha256) for part in parts]
     identifier = ids.animation_id(backend.secret, owner, described)
     kept = backend.jobs.records.animations.one(identifier)
-    if kept is not None and kept.parts:
+    if kept is not None and not all(backend.blobs.has(part.key) for part in kept.parts):  # lost by the store
+        for part in kept.parts:
+            backend.blobs.delete(part.key)
+        backend.jobs.records.animations.strip(kept)
+    elif kept is not None and kept.parts:
         backend.jobs.records.animations.touch(identifier)
         return kept, False
     record = AnimationRecord(

@@ -18,7 +18,9 @@ from service.forms import Form
 from service.preferences import wait_seconds
 from service.ranges import Stored, caching, not_modified, stored_response
 from service.revisions import document_of, number_of
+from worker.blobs import BlobMissing
 from worker.errands import submit_export
+from worker.forgetting import forget_export
 from worker.schema import ExportRecord, SegmentationRecord
 
 EXPORT_WAIT_SECONDS = 5
@@ -119,9 +121,9 @@ async def made_file(
     applied = preference_applied(request)
     if made.problem is not None:
         return problem_response(made.problem, applied)
-    if made.key is None:
+    size = None if made.key is None else await to_thread.run_sync(_size, backend, record.id, form, made.key)
+    if made.key is None or size is None:
         return answer(StatusDocument.of(record), 202, {"Location": here} | applied | ASK_AGAIN)
-    size = await to_thread.run_sync(backend.blobs.size, made.key)
     if made.media_type == "application/zip":
         name = name.rpartition(".")[0] + ".zip"
     tag = f'"{made.key.rpartition("/")[2]}"'
@@ -132,15 +134,24 @@ async def made_file(
 async def _export(backend: Backend, identifier: str, form: str, seconds: float) -> ExportRecord:
     """The export, asked for where nobody has yet; as it is after so many seconds."""
     made = await backend.records.export(identifier, form)
-    if made is None or (made.problem or {}).get("kind") == "worker":
+    if made is None or made.pending or (made.problem or {}).get("kind") == "worker":
         made = await to_thread.run_sync(submit_export, backend.jobs, identifier, form)
     with backend.patience(seconds):
         async with aclosing(backend.records.changes(identifier)) as changes:
             async for _ in changes:
                 made = await backend.records.export(identifier, form) or made
-                if made.key is not None or made.problem is not None:
+                if not made.pending:
                     return made
     return made
+
+
+def _size(backend: Backend, identifier: str, form: str, key: str) -> int | None:
+    """Bytes of an export; None where it was lost: it is forgotten then, so that it is made again when asked for."""
+    try:
+        return backend.blobs.size(key)
+    except BlobMissing:
+        forget_export(backend.jobs.records, backend.blobs, identifier, form)
+        return None
 
 
 def _tag(record: SegmentationRecord, *variant: str) -> str:

@@ -15,7 +15,7 @@ from contextlib import closing
 from service.address import address, answers, listen
 from service.child import Child
 from service.settings import ServiceSettings
-from worker.connection import connect
+from worker.connection import connect, tolerate_full_disk
 from worker.jobs import Jobs
 from worker.layout import check_layout
 from worker.redis_server import EmbeddedRedis
@@ -41,7 +41,8 @@ def serve(settings: ServiceSettings, on_ready: OnReady | None = None) -> None:
             if server is not None:
                 server.start()
                 settings = settings.model_copy(update={"redis_url": server.url})
-                _recover(settings)
+                with tolerate_full_disk():  # the workers find what is lost once it has room
+                    _recover(settings)
             _watch(settings, listening, server, on_ready or _announce, stopping)
         finally:
             if server is not None:

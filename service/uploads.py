@@ -3,23 +3,24 @@
 A raw body, `curl --data-binary` (whatever type it claims) and a form of one part are the same upload.
 """
 
-import shutil
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Protocol
+from typing import NoReturn, Protocol
 
-from anyio import CancelScope, to_thread
+from anyio import CancelScope, move_on_after, to_thread
 from fastapi import Request
 
 from core.errors import LimitExceeded
+from service.backend import Backend
 from service.errors import Refusal
 from service.multipart import OVERHEAD_BYTES, MultipartBody, boundary
-from service.settings import ServiceSettings
 from service.spool import Part, SpoolFile
+from worker.disk_space import check_disk_space
 
 BLOCK_BYTES = 2**20
+FAREWELL_SECONDS = 1.0
 
 
 @dataclass(frozen=True)
@@ -63,12 +64,14 @@ class RawBody:
 
 
 @asynccontextmanager
-async def received(request: Request, folder: Path, settings: ServiceSettings) -> AsyncIterator[Upload]:
-    """The upload of `request`, in `folder` until the block ends; what is to stay must have been moved by then.
+async def received(request: Request, backend: Backend) -> AsyncIterator[Upload]:
+    """The upload of `request`, in the spool until the block ends; what is to stay must have been moved by then.
 
-    Raises `LimitExceeded` ("upload-too-large") as soon as more bytes than may be are passed, announced or not, and
-    `Refusal` ("storage-full") where what is still to come would fill the disk: others may be sending too.
+    Raises `LimitExceeded` ("upload-too-large") as soon as more bytes than may be are passed, announced or not,
+    `StorageFull` where what is still to come would fill the disk, for others may be sending too, and `Refusal`
+    ("not-ready") where the process is told to stop before all has come.
     """
+    settings, folder = backend.settings, backend.spool
     limit = settings.max_upload_bytes
     mark = boundary(request.headers.get("content-type", ""))
     body: Body = await to_thread.run_sync(
@@ -76,11 +79,14 @@ async def received(request: Request, folder: Path, settings: ServiceSettings) ->
     )
     try:
         left = _announced(request)
-        async for block in _blocks(request, limit + (OVERHEAD_BYTES if mark else 0), limit):
-            left = max(left, len(block))
-            await to_thread.run_sync(_check_disk, folder, left, settings.min_free_bytes)
-            await to_thread.run_sync(body.feed, block)
-            left -= len(block)
+        with backend.patience() as scope:
+            async for block in _blocks(request, limit + (OVERHEAD_BYTES if mark else 0), limit):
+                left = max(left, len(block))
+                await to_thread.run_sync(check_disk_space, folder, left, settings.min_free_bytes)
+                await to_thread.run_sync(body.feed, block)
+                left -= len(block)
+        if scope.cancelled_caught:
+            await _refuse_rest(request)
         parts, fields = await to_thread.run_sync(body.finish)
         yield Upload(parts, fields)
     finally:
@@ -110,10 +116,12 @@ def _announced(request: Request) -> int:
     return int(request.headers.get("content-length", 0))
 
 
-def _check_disk(folder: Path, coming: int, stays_free: int) -> None:
-    if shutil.disk_usage(folder).free - coming < stays_free:
-        detail = "The disk of the service has no room for this upload. Nothing was kept; tell its keeper, or try later."
-        raise Refusal("storage-full", detail, setting="CAESURA_MIN_FREE_BYTES")
+async def _refuse_rest(request: Request) -> NoReturn:
+    """Raise the refusal of a process that stops, after a moment: closed on unread bytes, the connection loses it."""
+    with move_on_after(FAREWELL_SECONDS):
+        async for _ in request.stream():
+            pass
+    raise Refusal("not-ready", "The service is stopping. Nothing was kept; send it again in a moment.")
 
 
 def _too_large(actual: int, limit: int) -> LimitExceeded:

@@ -16,7 +16,7 @@ from pathlib import Path
 from redis.exceptions import RedisError
 
 from worker import logs
-from worker.connection import connect
+from worker.connection import await_writes, connect
 from worker.errands import sweep_sometimes
 from worker.horses import CaesuraWorker
 from worker.jobs import Jobs
@@ -49,7 +49,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 def run(settings: WorkerSettings, groups: list[list[str]]) -> None:
     """Warm up on one thread, then fork the workers."""
-    check_layout(connect(settings.redis_location))
+    client = connect(settings.redis_location)
+    await_writes(client)
+    check_layout(client)
     _choose_cache(settings)
     # Only now is it settled where compiled code is kept. The tasks are loaded for the forks to have them.
     from worker import tasks  # noqa: F401, PLC0415
@@ -69,10 +71,11 @@ def run(settings: WorkerSettings, groups: list[list[str]]) -> None:
 
 
 def _work(queues: list[str], settings: WorkerSettings) -> None:
-    """One worker, in its own process."""
+    """One worker, in its own process. It leaves where Redis refuses a write; the one after it waits first."""
     from worker.tasks import prepare  # noqa: PLC0415  as in `run`
 
     client = connect(settings.redis_location)
+    await_writes(client)
     worker = CaesuraWorker(queues, client, Jobs.open(settings), prepare)
     worker.saddle()
     worker.work(logging_level="INFO")

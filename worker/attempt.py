@@ -5,21 +5,16 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from obstore.exceptions import BaseError as StoreError
-from redis.exceptions import RedisError
-
 from core.errors import CaesuraError
 from worker import logs, tallies
 from worker.blobs import BlobMissing
 from worker.jobs import Jobs
-from worker.problems import DELETED, INTERNAL_ERROR, OUT_OF_MEMORY, OUT_OF_TIME, UNAVAILABLE
+from worker.problems import DELETED, INFRASTRUCTURE, INTERNAL_ERROR, OUT_OF_MEMORY, OUT_OF_TIME, UNAVAILABLE
 from worker.queues import TimeLimit
 from worker.schema import SegmentationRecord
 from worker.telling import Teller
 
 log = logging.getLogger(__name__)
-
-INFRASTRUCTURE = (OSError, RedisError, StoreError)
 
 
 class Superseded(Exception):

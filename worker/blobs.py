@@ -18,6 +18,7 @@ import obstore
 from obstore.exceptions import NotFoundError
 from obstore.store import LocalStore, ObjectStore, from_url
 
+from worker.disk_space import check_disk_space
 from worker.leftovers import aside, path_of, write_all
 
 if TYPE_CHECKING:  # a type alone: it is not there at run time
@@ -68,14 +69,19 @@ class Blobs:
             path.unlink(missing_ok=True)
         return key
 
-    def put(self, content: bytes | memoryview | Iterator[bytes], kind: Kind) -> str:
-        """Keep some bytes, at once or piece by piece as they are made."""
+    def put(self, content: bytes | memoryview | Iterator[bytes], kind: Kind, stays_free: int | None = None) -> str:
+        """Keep some bytes, at once or piece by piece as they are made.
+
+        Raises `StorageFull` where a piece would leave fewer than `stays_free` bytes of the disk of a local store.
+        """
         if self._folder is None:
             key = _new_key(kind)
             obstore.put(self._store, key, content)
             return key
         with aside(self._scratch) as file:
             for piece in [content] if isinstance(content, bytes | memoryview) else content:
+                if stays_free is not None:
+                    check_disk_space(self._scratch, len(piece), stays_free)
                 write_all(file, piece)
             return self.adopt(path_of(file), kind)
 
@@ -88,6 +94,13 @@ class Blobs:
         """How many bytes it has."""
         with _missing(key):
             return int(obstore.head(self._store, key)["size"])
+
+    def has(self, key: str) -> bool:
+        """Whether it is there."""
+        try:
+            return self.size(key) >= 0
+        except BlobMissing:
+            return False
 
     def stream(self, key: str, start: int = 0, end: int | None = None) -> Iterator[bytes]:
         """Bytes [start, end) in pieces of some MB; a missing blob raises at this call, not at the first piece."""

@@ -1,13 +1,15 @@
 """Jobs that are no segmentation: a file of a result, the other numbers of motions, a look for what is kept too long."""
 
+import time
+
 from redis import WatchError
 
 from worker import ids, keys
 from worker.jobs import Jobs
 from worker.schema import ExportRecord
 
-EXPORT_SECONDS = 120
 SWEEP_SECONDS = 3600
+PROBLEM_SECONDS = 10.0
 
 DELETED = {"kind": "request", "code": "not-found", "detail": "The segmentation was deleted meanwhile."}
 
@@ -19,20 +21,33 @@ def submit_export(jobs: Jobs, identifier: str, form: str) -> ExportRecord:
         while True:
             pipe.watch(key, keys.segmentation_key(identifier))
             kept = jobs.records.exports.one(identifier, form)
-            if kept is not None and (kept.problem or {}).get("kind") != "worker":
+            if kept is not None and _holds(jobs, kept):
                 return kept
             if not pipe.exists(keys.segmentation_key(identifier)):
                 return ExportRecord(problem=DELETED)
             jobs.queues.check_room()
+            pending = ExportRecord(token=ids.token())
             pipe.multi()
-            pipe.set(key, ExportRecord().model_dump_json(), ex=2 * EXPORT_SECONDS)  # then its job was lost
+            pipe.set(key, pending.model_dump_json(), ex=2 * jobs.job_seconds)
             pipe.sadd(keys.exports_key(identifier), form)
-            jobs.queues.put("cut", "export", [identifier, form], ids.token(), EXPORT_SECONDS, pipe)
+            jobs.records.attempts.renew(pending.token, pipe)
+            jobs.queues.put("cut", "export", [identifier, form], pending.token, jobs.job_seconds, pipe)
             try:
                 pipe.execute()
             except WatchError:  # somebody else asked for it in this moment, or deleted it
                 continue
-            return ExportRecord()
+            return pending
+
+
+def _holds(jobs: Jobs, export: ExportRecord) -> bool:
+    """Whether there is a file, or a reason why there is none; or whether its job waits or runs.
+
+    A reason that is not the file's holds for as long as it takes everybody who waits to hear it.
+    """
+    if export.pending:
+        return jobs.records.attempts.leased(export.token) or jobs.queues.waits("cut", export.token)
+    passing = (export.problem or {}).get("kind") == "worker"
+    return not passing or abs(time.time() - export.created) < PROBLEM_SECONDS
 
 
 def submit_alternatives(jobs: Jobs, identifier: str) -> None:

@@ -6,6 +6,7 @@ A form is a name, and after a question mark the revision and the options that ar
 
 import io
 import json
+import logging
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -14,7 +15,6 @@ from urllib.parse import parse_qsl
 import numpy as np
 
 from core.document import SegmentationDocument
-from core.errors import CaesuraError
 from core.formats.clips.options import ClipOptions
 from core.formats.clips.write import Parts, Scratch, Written, write_clips, write_key_poses
 from core.plot.layout import picture_of
@@ -22,25 +22,20 @@ from core.plot.png import png
 from core.revision import revised
 from worker.allowance import Allowance
 from worker.blobs import BlobMissing, Blobs
-from worker.errands import EXPORT_SECONDS
 from worker.forgetting import forget_oldest_exports
 from worker.mapping import mapped_parts, scratch_space
-from worker.problems import INTERNAL_ERROR
+from worker.problems import INTERNAL_ERROR, problem_of
+from worker.queues import TimeLimit
 from worker.records import Records
 from worker.revisions import edits_of
 from worker.schema import ExportRecord, SegmentationRecord
 from worker.settings import WorkerSettings
 
+log = logging.getLogger(__name__)
+
 MOST_EXPORTS = 16
 """Files made of one result that are kept, and answers why there is none: choices and revisions are many, and each may
 ask for a copy of the upload."""
-
-GONE = {
-    "kind": "request",
-    "code": "gone",
-    "detail": "The upload is no longer kept here: its time has run out. Upload it again.",
-}
-
 
 Options = dict[str, str]
 
@@ -57,8 +52,9 @@ class Export:
     energy: bytes
 
     def keep(self, content: bytes | Iterator[bytes], media_type: str) -> ExportRecord:
-        """Where the file is, from now on."""
-        return ExportRecord(key=self.blobs.put(content, "exports"), media_type=media_type, created=time.time())
+        """Where the file is, from now on; raises `StorageFull`."""
+        key = self.blobs.put(content, "exports", self.settings.min_free_bytes)
+        return ExportRecord(key=key, media_type=media_type, created=time.time())
 
 
 def npz(export: Export, _: Options) -> ExportRecord:
@@ -102,9 +98,10 @@ def _of_upload(export: Export, write: Callable[[Parts, Scratch], Written]) -> Ex
     animation = export.records.animations.one(export.record.animation)
     if animation is None or not animation.parts:
         raise BlobMissing(export.record.animation)
-    allowance = Allowance(export.settings.job_memory_bytes, EXPORT_SECONDS)
+    settings = export.settings
+    allowance = Allowance(settings.job_memory_bytes, settings.job_seconds)
     with mapped_parts(export.blobs, animation.parts, allowance.grant) as parts:
-        written = write(parts, scratch_space(export.settings.scratch_dir, allowance.grant))
+        written = write(parts, scratch_space(settings.scratch_dir, allowance.grant, settings.min_free_bytes))
         return export.keep(written.pieces, written.media_type)
 
 
@@ -113,7 +110,7 @@ WRITERS: dict[str, Writer] = {"npz": npz, "png": plot, "clips": clips, "keyframe
 
 
 def run(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: str, form: str) -> None:
-    """Write one form of one result, and say where it is; a failure is said too, and raised where it is ours."""
+    """Write one form of one result, and say where it is, or why there is none; a bug is logged."""
     name, _, query = form.partition("?")
     options = dict(parse_qsl(query))
     record = records.segmentations.one(identifier)
@@ -128,13 +125,10 @@ def run(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: st
     export = Export(records, blobs, settings, record, result, energy)
     try:
         made = WRITERS[name](export, options)
-    except CaesuraError as refused:
-        made = ExportRecord(problem=refused.problem(), created=time.time())
-    except BlobMissing:
-        made = ExportRecord(problem=GONE, created=time.time())
-    except Exception:
-        records.exports.write(identifier, form, ExportRecord(problem=INTERNAL_ERROR, created=time.time()))
-        raise
+    except (Exception, TimeLimit) as fault:
+        made = ExportRecord(problem=problem_of(fault), created=time.time())
+        if made.problem == INTERNAL_ERROR:
+            log.exception("%s of %s cannot be made", form, identifier)
     if not records.exports.write(identifier, form, made) and made.key is not None:
         blobs.delete(made.key)
     forget_oldest_exports(records, blobs, identifier, MOST_EXPORTS)

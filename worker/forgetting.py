@@ -1,6 +1,13 @@
-"""Deleting what was kept: blobs before the record that points to them, so that it can be repeated when cut short."""
+"""Deleting what was kept: blobs before the record that points to them, so that it can be repeated when cut short.
+
+On a full disk Redis takes no writes, not even deletions. So all blobs of what is deleted go first: they make the room
+that Redis then finds, and the records follow.
+"""
+
+from collections.abc import Iterator
 
 from worker.blobs import Blobs
+from worker.connection import await_writes
 from worker.jobs import Jobs
 from worker.records import Records
 from worker.schema import AnimationRecord
@@ -8,9 +15,13 @@ from worker.schema import AnimationRecord
 OF_UPLOAD = ("clips", "keyframes")
 """Forms that hold what was uploaded: they go with it."""
 
+WRITES_SECONDS = 3.0
+"""Redis looks every second whether its disk has room again."""
+
 
 def forget_segmentation(jobs: Jobs, blobs: Blobs, identifier: str) -> None:
     """Cancel a segmentation where it is live, and delete it with every file made of it; the analysis stays."""
+    _make_room(jobs, blobs, _exported(jobs.records, identifier))
     _forget_exports(jobs, blobs, identifier)
     jobs.delete(identifier)
     _forget_exports(jobs, blobs, identifier)  # one that was kept in this moment; from now on none is
@@ -18,12 +29,35 @@ def forget_segmentation(jobs: Jobs, blobs: Blobs, identifier: str) -> None:
 
 def forget_animation(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
     """Delete an upload and everything derived from it, also what is asked for while it is being deleted."""
+    _make_room(jobs, blobs, blobs_of(jobs.records, animation))
     while True:
         for segmentation in jobs.records.segmentations.of(animation.id):
             forget_segmentation(jobs, blobs, segmentation.id)
         forget_files(jobs, blobs, animation)
         if jobs.records.animations.delete(animation):
             return
+
+
+def _make_room(jobs: Jobs, blobs: Blobs, keys: Iterator[str]) -> None:
+    """Delete blobs, and wait until Redis takes writes, which it does at once where its disk was not full."""
+    for key in keys:
+        blobs.delete(key)
+    await_writes(jobs.redis, WRITES_SECONDS)
+
+
+def blobs_of(records: Records, animation: AnimationRecord) -> Iterator[str]:
+    """Every blob of an upload, and of what was made of it."""
+    yield from (part.key for part in animation.parts)
+    for analysis in records.analyses.all(animation.id).values():
+        yield from analysis.blobs()
+    for segmentation in records.segmentations.of(animation.id):
+        yield from _exported(records, segmentation.id)
+
+
+def _exported(records: Records, identifier: str) -> Iterator[str]:
+    """The blobs of files made of a result."""
+    made = (records.exports.one(identifier, form) for form in records.exports.forms(identifier))
+    yield from (one.key for one in made if one is not None and one.key is not None)
 
 
 def forget_files(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:

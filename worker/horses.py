@@ -5,6 +5,7 @@ import json
 import os
 import random
 import signal
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -16,12 +17,14 @@ from rq.job import Job
 from rq.serializers import JSONSerializer
 
 from worker.allowance import resident_bytes
+from worker.connection import tolerate_full_disk
 from worker.horse import Horse
 from worker.jobs import Jobs
 from worker.priority import yield_to_others
 from worker.problems import KILLED, OUT_OF_MEMORY, OUT_OF_TIME
 from worker.queues import TASKS
 from worker.roster import IDLE_SECONDS
+from worker.schema import ExportRecord
 
 MONITOR_SECONDS = 5  # between signs of life while a job runs
 MAINTENANCE_SECONDS = 60
@@ -60,6 +63,7 @@ class CaesuraWorker(Worker):
 
     def execute_job(self, job: Job, queue: RqQueue) -> None:
         """In the worker: have a job done, and the next horse stand ready before the next job comes."""
+        self._jobs.records.attempts.renew(job.id)
         super().execute_job(job, queue)
         self.saddle()
 
@@ -119,9 +123,10 @@ class CaesuraWorker(Worker):
         """At the end: RQ would wait a second for its listening thread, which ends with the process anyway."""
 
     def maintain_heartbeats(self, job: Job) -> None:
-        """In the worker, every few seconds while the horse runs."""
-        super().maintain_heartbeats(job)
-        self._jobs.records.attempts.renew(job.id)
+        """In the worker, every few seconds while the horse runs; a full disk of Redis's is for the horse to meet."""
+        with tolerate_full_disk():
+            super().maintain_heartbeats(job)
+            self._jobs.records.attempts.renew(job.id)
 
     def request_force_stop(self, signum: int, frame: Any) -> None:  # noqa: ARG002  a signal handler's arguments
         """The second signal: stop the job too, and let it be handed back; see `_lost`."""
@@ -131,16 +136,20 @@ class CaesuraWorker(Worker):
 
     def _lost(self, job: Job, pid: int | None, status: int | None, usage: Any) -> None:  # noqa: ARG002  RQ's hook
         """In the worker: the horse ended without a word."""
-        if len(job.args) != 2 or job.args[1] != job.id:
+        ended_by = os.WTERMSIG(status) if status is not None and os.WIFSIGNALED(status) else None
+        if status is None or ended_by == signal.SIGXCPU:
+            problem = OUT_OF_TIME
+        else:
+            problem = OUT_OF_MEMORY if ended_by in {signal.SIGABRT, signal.SIGSEGV} else KILLED
+        if job.func_name == TASKS["export"] and not self._handing_back:
+            identifier, form = job.args
+            self._jobs.records.exports.write(identifier, form, ExportRecord(problem=problem, created=time.time()))
+        if job.func_name not in KEPT_TASKS:
             return  # not an attempt
         identifier, token = job.args
         if self._handing_back:
             self._jobs.hand_back(identifier, token)
-            return
-        ended_by = os.WTERMSIG(status) if status is not None and os.WIFSIGNALED(status) else None
-        if status is None or ended_by == signal.SIGXCPU:
-            self._jobs.records.attempts.fail(identifier, token, OUT_OF_TIME)
-        elif ended_by in {signal.SIGABRT, signal.SIGSEGV}:
-            self._jobs.again(identifier, token, OUT_OF_MEMORY)
+        elif problem == OUT_OF_TIME:
+            self._jobs.records.attempts.fail(identifier, token, problem)
         else:
-            self._jobs.again(identifier, token, KILLED)
+            self._jobs.again(identifier, token, problem)

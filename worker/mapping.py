@@ -8,6 +8,7 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from worker.blobs import Blobs
+from worker.disk_space import check_disk_space
 from worker.schema import Part
 
 Grant = Callable[[int], None]
@@ -20,15 +21,18 @@ def mapped_parts(blobs: Blobs, parts: Iterable[Part], grant: Grant) -> Iterator[
         yield {part.name: _mapped(stack.enter_context(blobs.path(part.key)), grant) for part in parts}
 
 
-def scratch_space(folder: Path, grant: Grant) -> Callable[[int], memoryview]:
+def scratch_space(folder: Path, grant: Grant, stays_free: int | None = None) -> Callable[[int], memoryview]:
     """What hands out writable buffers of so many bytes, each a file without a name in `folder`.
 
-    The disk is reserved at once: a full one is an OSError here and not a bus error on some later write.
+    The disk is reserved at once: a full one is an OSError here and not a bus error on some later write. Raises
+    `StorageFull` where fewer than `stays_free` bytes of it would be left.
     """
 
     def scratch(size: int) -> memoryview:
         if size == 0:
             return memoryview(bytearray())
+        if stays_free is not None:
+            check_disk_space(folder, size, stays_free)
         with tempfile.TemporaryFile(dir=folder) as file:
             if hasattr(os, "posix_fallocate"):
                 os.posix_fallocate(file.fileno(), 0, size)

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from worker import keys
 from worker.blobs import Blobs
 from worker.connection import names
+from worker.forgetting import blobs_of
 from worker.records import Records
 
 
@@ -36,14 +37,8 @@ def _pointers(records: Records) -> Iterator[str]:
     """The keys of all blobs that some record names."""
     for identifier in records.animations.uses():
         animation = records.animations.one(identifier)
-        yield from (part.key for part in (animation.parts if animation else ()))
-        for analysis in records.analyses.all(identifier).values():
-            yield from analysis.blobs()
-        for segmentation in records.segmentations.of(identifier):
-            for form in records.exports.forms(segmentation.id):
-                made = records.exports.one(segmentation.id, form)
-                if made is not None and made.key is not None:
-                    yield made.key
+        if animation is not None:
+            yield from blobs_of(records, animation)
 
 
 def _note(records: Records, doubtful: dict[str, float], sizes: dict[str, int]) -> None:

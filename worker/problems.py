@@ -2,6 +2,16 @@
 
 from typing import Any
 
+from obstore.exceptions import BaseError as StoreError
+from redis.exceptions import RedisError
+
+from core.errors import CaesuraError
+from worker.blobs import BlobMissing
+from worker.disk_space import FULL, storage_full
+from worker.queues import TimeLimit
+
+INFRASTRUCTURE = (OSError, RedisError, StoreError)
+
 
 def worker_problem(code: str, detail: str, **where: Any) -> dict[str, Any]:
     """A problem that is not the file's: posting the same again starts anew."""
@@ -32,3 +42,16 @@ DELETED = worker_problem("animation-deleted", "The animation was deleted before 
 INTERNAL_ERROR = worker_problem(
     "internal-error", "Something went wrong that is not the file's fault; the service's log has the details."
 )
+GONE = worker_problem("gone", "The upload is no longer kept here: its time has run out. Upload it again.")
+
+
+def problem_of(fault: BaseException) -> dict[str, Any]:
+    """What is said of a file that could not be made of a result; `INTERNAL_ERROR` is a bug."""
+    if isinstance(fault, CaesuraError):
+        return fault.problem()
+    if isinstance(fault, OSError) and fault.errno in FULL:
+        return storage_full().problem()
+    if isinstance(fault, INFRASTRUCTURE):
+        return UNAVAILABLE
+    known = {BlobMissing: GONE, MemoryError: OUT_OF_MEMORY, TimeLimit: OUT_OF_TIME}
+    return next((problem for kind, problem in known.items() if isinstance(fault, kind)), INTERNAL_ERROR)

@@ -70,6 +70,10 @@ class Queues:
         found = self._redis.lpos(self.key(record.queue), record.token)
         return found if isinstance(found, int) else None
 
+    def waits(self, queue: Queue, job_id: str) -> bool:
+        """Whether a job has a place in a queue."""
+        return self._redis.lpos(self.key(queue), job_id) is not None
+
     def key(self, name: Queue) -> str:
         """The list that a queue is in Redis."""
         return str(self._queues[name].key)

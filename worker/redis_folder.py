@@ -55,9 +55,11 @@ class RedisFolder:
         kept = self.path / product
         kept.mkdir(exist_ok=True)
         stamp = kept / "version"
-        if stamp.exists() and int(stamp.read_text()) > major:
-            raise ServerUnavailable(f"{kept} was written by version {stamp.read_text()}; {program} is only {major}.")
-        stamp.write_text(str(major))
+        written = stamp.read_text() if stamp.exists() else ""
+        if written and int(written) > major:
+            raise ServerUnavailable(f"{kept} was written by version {written}; {program} is only {major}.")
+        if written != str(major):  # what is there is not written again: the disk may be full
+            stamp.write_text(str(major))
         return kept
 
     def _locked(self) -> int:

@@ -76,12 +76,21 @@ class AnalysisRecord(_Record):
 
 
 class ExportRecord(_Record):
-    """A file made of a result by a job: pending without a key or a problem. `created` is in seconds since 1970."""
+    """A file made of a result by a job, which `token` names: pending without a key or a problem.
 
+    `created` is in seconds since 1970.
+    """
+
+    token: str = ""
     key: str | None = None
     media_type: str = ""
     created: float = 0.0
     problem: dict[str, Any] | None = None
+
+    @property
+    def pending(self) -> bool:
+        """There is no file yet, and no reason why there will be none."""
+        return self.key is None and self.problem is None
 
 
 class RevisionRecord(_Record):

@@ -35,7 +35,7 @@ async def upload(
     name: Annotated[str, Query(max_length=1000, description="what to call it")] = "",
 ) -> Response:
     """Upload a file, as the body itself or in a form; the same bytes again are the same animation."""
-    async with received(request, backend.spool, backend.settings) as uploaded:
+    async with received(request, backend) as uploaded:
         unknown = next((field for field in uploaded.fields if field != "name"), None)
         if unknown is not None:
             raise Refusal("unknown-field", f"There is no form field {unknown!r} here. Known: name.", parameter=unknown)

@@ -45,7 +45,7 @@ async def create(request: Request, backend: Behind, owner: Owner) -> Response:
     else:
         Parameters.parse(order.parameters)  # refused before a long upload
         await to_thread.run_sync(backend.jobs.queues.check_room)
-        async with received(request, backend.spool, backend.settings) as upload:
+        async with received(request, backend) as upload:
             order = order.with_fields(upload.fields)
             parameters = Parameters.parse(order.parameters)
             animation, _ = await to_thread.run_sync(keep, backend, owner, upload.parts, order.name)

@@ -107,3 +107,20 @@ def test_an_upload_that_is_no_longer_kept_is_gone_until_it_comes_again(idle, tak
     assert idle.http.post("/v1/segmentations", json={"animation": identifier}).status_code == 410
     assert idle.http.post("/v1/animations", content=content).json()["id"] == identifier
     assert idle.http.get(f"/v1/animations/{identifier}/file").content == content
+
+
+def test_a_file_that_the_store_has_lost_is_stored_again(service, take):
+    """410 until the same bytes come again; a file that was made of a result is made again."""
+    content = take(207)
+    status = service.http.post("/v1/segmentations", content=content, headers={"Prefer": "wait=30"}).json()
+    file, made = f"/v1/animations/{status['animation']}/file", f"{status['links']['self']}/result.npz"
+    assert service.http.get(made, headers={"Prefer": "wait=30"}).status_code == 200
+    records = Records(connect(service.redis_url))
+    lost = [records.animations.one(status["animation"]).parts[0].key, records.exports.one(status["id"], "npz").key]
+    for key in lost:
+        (service.data / "blobs" / key).unlink()
+    assert service.http.get(file).status_code == 410
+    assert service.http.get(made).status_code in {200, 202}
+    assert service.http.get(made, headers={"Prefer": "wait=30"}).status_code == 200
+    assert service.http.post("/v1/animations", content=content).status_code == 201
+    assert service.http.get(file).content == content

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from core.document import SegmentationDocument
 from core.formats.clips.channels import TakeChannel, Tracks, take_channels
+from core.formats.clips.clip_source import drop_large_extras
 from core.formats.clips.cutting import Part, cut, held, spanning
 from core.formats.clips.options import ClipOptions
 from core.formats.clips.plan import Clip, plan
@@ -32,6 +33,7 @@ def gltf_clips(file: Replacement, clips: Sequence[Clip], options: ClipOptions, c
 
 def _put(file: Replacement, take: int, clips: list[Clip], options: ClipOptions) -> None:
     """The clips of one take."""
+    drop_large_extras(file.document.animations[take].value)
     tracks = [Tracks() for _ in clips]
     reaching = [False] * len(clips)
     first: TakeChannel | None = None

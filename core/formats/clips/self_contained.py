@@ -37,10 +37,11 @@ class SelfContained:
         opened = Buffers(self._document)
         shifts: dict[int, int] = {}
         stand_ins = []
+        named = {part["buffer"] for view in self.json.get("bufferViews", []) for part in addressed(view)}
         for index, entry in enumerate(self._document.buffers):
             if "uri" not in entry and (index or not self._document.is_glb):
                 stand_ins.append(index)
-            else:
+            elif index in named:
                 shifts[index] = self.append(opened.buffer(index))
         places = {index: (0, shift) for index, shift in shifts.items()}
         places |= {index: (1 + rank, 0) for rank, index in enumerate(stand_ins)}
@@ -54,8 +55,10 @@ class SelfContained:
         self.json["buffers"] = [{} if stand_ins[:1] == [0] else first, *kept]
 
     def _take_in_images(self) -> None:
-        """An image sent beside the model goes into it; one that was not sent keeps its address."""
-        for image in self.json.get("images", []):
+        """An image sent beside the model goes into it; one that was not sent, or is on nothing, keeps its address."""
+        for number, image in enumerate(self.json.get("images", [])):
+            if not self._shows(number):
+                continue
             uri = image.get("uri")
             name = next((n for n in (uri, unquote(uri)) if n in self._document.parts), "") if uri else ""
             kind = image.get("mimeType") or IMAGES.get(name.rpartition(".")[2].lower())
@@ -66,6 +69,12 @@ class SelfContained:
             views.append({"buffer": 0, "byteOffset": self.append(data), "byteLength": len(data)})
             del image["uri"]
             image |= {"bufferView": len(views) - 1, "mimeType": kind}
+
+    def _shows(self, image: int) -> bool:
+        """Whether a texture has the image, by itself or by an extension, or an extension of the file may."""
+        textures = self.json.get("textures", [])
+        named = (kind.get("source") for t in textures for kind in (t, *t.get("extensions", {}).values()))
+        return image in named or bool(self.json.get("extensions"))
 
 
 def addressed(view: dict[str, Any]) -> Iterator[dict[str, Any]]:

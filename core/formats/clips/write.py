@@ -7,6 +7,7 @@ from mmap import mmap
 from core.animation import Animation
 from core.document import SegmentationDocument
 from core.errors import InvalidModel
+from core.formats.clips.clip_source import clip_source
 from core.formats.clips.gltf_clips import gltf_clips, planned
 from core.formats.clips.key_poses import gltf_key_poses, sequence_key_poses
 from core.formats.clips.options import ClipOptions
@@ -51,8 +52,10 @@ def write_clips(parts: Parts, document: SegmentationDocument, options: ClipOptio
     if options.files == "one":
         return Written(GLB, gltf_clips(file, made, options, takes))
 
+    source = clip_source(gltf)
+
     def alone(clip: Clip) -> Iterator[bytes]:
-        yield from gltf_clips(Replacement(gltf, animation_only=options.animation_only), [clip], options, takes)
+        yield from gltf_clips(Replacement(source, animation_only=options.animation_only), [clip], options, takes)
 
     return Written(ZIP, zipped(((f"{clip.name}.glb", alone(clip)) for clip in made), deflated=True))
 
