@@ -25,7 +25,8 @@ from worker.blobs import BlobMissing, Blobs
 from worker.errands import EXPORT_SECONDS
 from worker.forgetting import forget_oldest_exports
 from worker.mapping import mapped_parts, scratch_space
-from worker.problems import INTERNAL_ERROR
+from worker.problems import INTERNAL_ERROR, OUT_OF_TIME
+from worker.queues import TimeLimit
 from worker.records import Records
 from worker.revisions import edits_of
 from worker.schema import ExportRecord, SegmentationRecord
@@ -132,6 +133,8 @@ def run(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: st
         made = ExportRecord(problem=refused.problem(), created=time.time())
     except BlobMissing:
         made = ExportRecord(problem=GONE, created=time.time())
+    except TimeLimit:
+        made = ExportRecord(problem=OUT_OF_TIME, created=time.time())
     except Exception:
         records.exports.write(identifier, form, ExportRecord(problem=INTERNAL_ERROR, created=time.time()))
         raise
