@@ -23,6 +23,7 @@ from worker.jobs import Jobs
 from worker.layout import LayoutTooNew, check_layout
 from worker.leftovers import clear
 from worker.pool import Pool
+from worker.private_folder import make_private
 from worker.queues import QUEUES
 from worker.roster import alive_here
 from worker.settings import WorkerSettings
@@ -50,6 +51,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def run(settings: WorkerSettings, groups: list[list[str]]) -> None:
     """Warm up on one thread, then fork the workers."""
     check_layout(connect(settings.redis_location))
+    make_private(settings.data_dir)
     _choose_cache(settings)
     # Only now is it settled where compiled code is kept. The tasks are loaded for the forks to have them.
     from worker import tasks  # noqa: F401, PLC0415
