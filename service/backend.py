@@ -24,6 +24,7 @@ from worker.connection import connect
 from worker.jobs import Jobs
 from worker.layout import check_layout
 from worker.leftovers import clear
+from worker.private_folder import make_private
 from worker.schema import AnimationRecord, SegmentationRecord
 
 
@@ -111,6 +112,7 @@ async def opened(settings: ServiceSettings) -> AsyncIterator[Backend]:
     client = connect(settings.redis_location)
     jobs = Jobs(client, settings.attempts, settings.job_seconds, settings.max_queued)
     try:
+        make_private(settings.data_dir)
         blobs = Blobs.open(settings.store_location, settings.scratch_dir)
         backend = Backend(settings, records, jobs, blobs, KeyFile(settings.keys_file))
         with suppress(RedisError):  # it need not be up yet; the workers look too

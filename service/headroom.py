@@ -17,6 +17,7 @@ from redis.exceptions import RedisError
 from service.backend import Backend, Behind
 from service.errors import Refusal
 from worker.connection import refuses_writes
+from worker.roster import unserved
 
 FULL = 0.8
 """Share of the memory that Redis may use above which no more work is taken."""
@@ -72,6 +73,12 @@ def _redis_share(client: Redis) -> float:
     memory = client.info("memory")
     most = memory.get("maxmemory") or memory.get("total_system_memory") or float("inf")
     return float(memory["used_memory"]) / float(most)
+
+
+async def idle(backend: Backend) -> str:
+    """Which queues no worker takes from, as a sentence; what is posted meanwhile waits there. Empty where all do."""
+    queues = await to_thread.run_sync(unserved, backend.jobs.redis)
+    return f"No worker is ready to take jobs from {' and '.join(queues)}." if queues else ""
 
 
 async def room(request: Request, backend: Behind) -> None:

@@ -18,6 +18,7 @@ from service.settings import ServiceSettings
 from worker.connection import connect, tolerate_full_disk
 from worker.jobs import Jobs
 from worker.layout import check_layout
+from worker.private_folder import make_private
 from worker.redis_server import EmbeddedRedis
 from worker.roster import forget_workers
 from worker.watch import recover
@@ -34,7 +35,7 @@ OnReady = Callable[[str], None]
 def serve(settings: ServiceSettings, on_ready: OnReady | None = None) -> None:
     """Run until SIGINT or SIGTERM; call `on_ready` with the address once it answers. Main thread only."""
     stopping = _stop_signals()
-    settings.data_dir.mkdir(parents=True, exist_ok=True, mode=0o700)
+    make_private(settings.data_dir)
     with closing(listen(settings.host, settings.port)) as listening:
         server = None if settings.redis_url else EmbeddedRedis(settings.redis_dir, settings.redis_server_bin)
         try:

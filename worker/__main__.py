@@ -23,6 +23,7 @@ from worker.jobs import Jobs
 from worker.layout import LayoutTooNew, check_layout
 from worker.leftovers import clear
 from worker.pool import Pool
+from worker.private_folder import make_private
 from worker.queues import QUEUES
 from worker.roster import alive_here
 from worker.settings import WorkerSettings
@@ -52,6 +53,7 @@ def run(settings: WorkerSettings, groups: list[list[str]]) -> None:
     client = connect(settings.redis_location)
     await_writes(client)
     check_layout(client)
+    make_private(settings.data_dir)
     _choose_cache(settings)
     # Only now is it settled where compiled code is kept. The tasks are loaded for the forks to have them.
     from worker import tasks  # noqa: F401, PLC0415

@@ -86,6 +86,8 @@ def carry_out(jobs: Jobs, identifier: str, token: str, work: Callable[[Attempt],
     with logs.about(request=record.request, segmentation=identifier):
         try:
             _carried_out(attempt, work)
+        except TimeLimit:  # also where another end was being written: what is written already stays
+            attempt.fail(OUT_OF_TIME)
         finally:
             attempt.end()
         tallies.count_stages(jobs.redis, attempt.stage_seconds)
@@ -104,7 +106,7 @@ def _carried_out(attempt: Attempt, work: Callable[[Attempt], None]) -> None:
     except MemoryError:
         attempt.fail(OUT_OF_MEMORY)
     except TimeLimit:
-        attempt.fail(OUT_OF_TIME)
+        raise
     except INFRASTRUCTURE:
         attempt.again(UNAVAILABLE)
         raise

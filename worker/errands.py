@@ -63,3 +63,5 @@ def sweep_sometimes(jobs: Jobs) -> None:
         with jobs.redis.pipeline() as pipe:
             jobs.queues.put("cut", "sweep", [], ids.token(), SWEEP_SECONDS, pipe)
             pipe.execute()
+    elif jobs.redis.ttl(keys.SWEPT_KEY) > SWEEP_SECONDS:  # Redis's clock was ahead when it was set
+        jobs.redis.expire(keys.SWEPT_KEY, SWEEP_SECONDS)

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from typing import Any
 
 from redis import Redis
+from redis.client import Pipeline
 from rq import Queue as RqQueue
 from rq import Worker
 from rq.executions import Execution
@@ -22,8 +23,8 @@ from worker.horse import Horse
 from worker.jobs import Jobs
 from worker.priority import yield_to_others
 from worker.problems import KILLED, OUT_OF_MEMORY, OUT_OF_TIME
-from worker.queues import TASKS
-from worker.roster import IDLE_SECONDS
+from worker.queues import TASKS, JobTimer, TaskJob, rq_queue
+from worker.roster import IDLE_SECONDS, sign
 from worker.schema import ExportRecord
 
 MONITOR_SECONDS = 5  # between signs of life while a job runs
@@ -38,6 +39,7 @@ KEPT_TASKS = frozenset({TASKS["analyse"], TASKS["cut"]})
 class CaesuraWorker(Worker):
     """Takes jobs from its queues, and has them done by a fork that stands ready (the work-horse)."""
 
+    death_penalty_class = JobTimer
     max_connection_wait_time = RECONNECT_SECONDS
     log_result_lifespan = False
 
@@ -45,8 +47,9 @@ class CaesuraWorker(Worker):
         self, queues: list[str], client: Redis, jobs: Jobs, prepare: Callable[[], None] = lambda: None
     ) -> None:
         super().__init__(
-            [RqQueue(name, connection=client, serializer=JSONSerializer) for name in queues],
+            [rq_queue(name, client) for name in queues],
             connection=client,
+            job_class=TaskJob,
             serializer=JSONSerializer,
             job_monitoring_interval=MONITOR_SECONDS,
             maintenance_interval=MAINTENANCE_SECONDS,
@@ -59,6 +62,7 @@ class CaesuraWorker(Worker):
         self._horse: Horse | None = None
         self._done = 0
         self._small = 0
+        self._given = 0.0
         self._yields = False
 
     def execute_job(self, job: Job, queue: RqQueue) -> None:
@@ -82,6 +86,7 @@ class CaesuraWorker(Worker):
             self.saddle()
         assert self._horse is not None  # noqa: S101  saddled above
         self._horse_pid = self._horse.pid
+        self._given = time.monotonic()
 
     def wait_for_horse(self) -> tuple[int | None, int | None, Any]:
         """In the worker: until the job is over; a horse that may do another one is kept."""
@@ -105,8 +110,8 @@ class CaesuraWorker(Worker):
         `cut` alone does not.
         """
         job_id, execution, name = json.loads(order)
-        queue = RqQueue(name, connection=self.connection, serializer=JSONSerializer)
-        job = Job.fetch(job_id, connection=self.connection, serializer=JSONSerializer)
+        queue = rq_queue(name, self.connection)
+        job = TaskJob.fetch(job_id, connection=self.connection, serializer=JSONSerializer)
         self.execution = Execution(execution, job_id, self.connection, self.name)
         self._is_horse = True
         if name == "analyse" and not self._yields:
@@ -119,8 +124,18 @@ class CaesuraWorker(Worker):
         gc.collect()
         return done and resident_bytes() - self._small < KEPT_BYTES
 
+    def set_current_job_working_time(self, current_job_working_time: float, pipeline: Pipeline | None = None) -> None:
+        """In the worker: how long the job has run, for RQ kills one that runs too long; by a clock that cannot jump."""
+        seconds = time.monotonic() - self._given if current_job_working_time else 0.0
+        super().set_current_job_working_time(seconds, pipeline)
+
     def unsubscribe(self) -> None:
         """At the end: RQ would wait a second for its listening thread, which ends with the process anyway."""
+
+    def heartbeat(self, timeout: int | None = None, pipeline: Pipeline | None = None) -> None:
+        """In the worker, and as a job begins: say that it lives."""
+        super().heartbeat(timeout, pipeline)
+        sign(self, pipeline if pipeline is not None else self.connection)
 
     def maintain_heartbeats(self, job: Job) -> None:
         """In the worker, every few seconds while the horse runs; a full disk of Redis's is for the horse to meet."""

@@ -21,7 +21,10 @@
 | caesura:analyses:ANIMATION | set | the digests of an animation's analyses |
 | caesura:export:ID:FORM | string | ExportRecord, JSON; the form is a name and its options |
 | caesura:exports:ID | set | the forms that were ever asked for |
+| caesura:worker:NAME | string, expires | the host of a warm worker that lives; RQ's sets say which queues it serves |
 | caesura:swept | string, expires | somebody looked lately for what is kept too long |
+| caesura:clock | hash | the time of the last look, and since when the clock has gone evenly; `worker.clock` |
+| caesura:deleted | string | something was deleted since Redis was last asked to rewrite its append-only file |
 | caesura:tally | hash | what workers have counted; `worker.tallies` |
 | caesura:doubted | hash | keys of blobs that no record pointed to when it was looked last, each with since when |
 | caesura:store | hash | kinds of blobs, each with the bytes they took when it was looked last |
@@ -37,6 +40,8 @@ from typing import Literal
 LIVE_KEY = "caesura:live"
 USED_KEY = "caesura:used"
 SWEPT_KEY = "caesura:swept"
+CLOCK_KEY = "caesura:clock"
+DELETED_KEY = "caesura:deleted"
 LAYOUT_KEY = "caesura:layout"
 TALLY_KEY = "caesura:tally"
 DOUBTED_KEY = "caesura:doubted"
@@ -102,6 +107,11 @@ def exports_key(segmentation: str) -> str:
 def lease_key(token: str) -> str:
     """The sign of life of an attempt."""
     return f"caesura:lease:{token}"
+
+
+def worker_key(name: str) -> str:
+    """The sign of life of a worker."""
+    return f"caesura:worker:{name}"
 
 
 def api_key_key(digest: str) -> str:

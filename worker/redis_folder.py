@@ -13,6 +13,8 @@ from pathlib import Path
 
 import redis
 
+from worker.private_folder import make_private
+
 log = logging.getLogger(__name__)
 
 TAKEOVER_SECONDS = 15.0
@@ -27,7 +29,7 @@ class RedisFolder:
     """One folder, made where it is not there. `socket` is where its server listens."""
 
     def __init__(self, path: Path) -> None:
-        path.mkdir(parents=True, exist_ok=True, mode=0o700)
+        make_private(path)
         self.path = path
         self.socket = _socket_path(path)
         self._lock: int | None = None

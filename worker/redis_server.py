@@ -5,6 +5,8 @@ at most a second behind.
 """
 
 import importlib.util
+import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -19,6 +21,8 @@ from worker.redis_folder import RedisFolder, ServerUnavailable
 
 START_SECONDS = 20.0
 STOP_SECONDS = 10.0
+LOG_CHARACTERS = 4096
+DAMAGED = re.compile(r"Bad file format reading the append only file ([^/\s:]+)")
 OPTIONS = (
     "--port 0 --unixsocketperm 700 --daemonize no --save '' --appendonly yes --appendfsync everysec "
     "--maxmemory-policy noeviction --loglevel notice"
@@ -87,7 +91,23 @@ class EmbeddedRedis:
                     time.sleep(0.01)
                 else:
                     return
-        raise ServerUnavailable(f"{self._program} did not start; {self._log} says why.")
+        raise ServerUnavailable(f"{self._program} did not start; {self._log} says why.{self._repair()}")
+
+    def _repair(self) -> str:
+        """What to do where it could not read its file: the program its log names is itself, by another name.
+
+        That is given the file alone: handed the manifest, Valkey 9 takes its own snapshot beside it for damaged.
+        """
+        found = DAMAGED.findall(self._log.read_text(errors="replace")[-LOG_CHARACTERS:])
+        if not found:
+            return ""
+        kept = self._folder.kept_by(self._program)
+        file = str(kept / "appendonlydir" / found[-1])
+        check = ["bash", "-c", f'exec -a {kept.name}-check-aof "$0" --fix "$1"', self._program, file]
+        return (
+            f" Its append-only file is damaged. Keep a copy of {kept}; then cut off the damage and what follows it, "
+            f"which is lost: {shlex.join(check)}"
+        )
 
 
 def find_program() -> str:

@@ -1,34 +1,54 @@
-"""Who works, as RQ keeps it in Redis: whether anybody of this machine is alive, and what the dead have left there."""
+"""Who works, as Redis keeps it: which queues are served, whether anybody of this machine is alive, and who is dead.
+
+A worker is warm when it registers: everything was compiled before it was forked (`worker.warming`). Its sign of life
+is a key that Redis ends, so no two clocks are compared.
+"""
 
 import socket
 import time
-from datetime import UTC, datetime, timedelta
 
 from redis import Redis
-from rq import Queue as RqQueue
-from rq import Worker
+from redis.client import Pipeline
+from rq import Worker, worker_registration
 from rq.serializers import JSONSerializer
 
-from worker.queues import QUEUES
+from worker import keys
+from worker.connection import names
+from worker.queues import QUEUES, rq_queue
+from worker.schema import Queue
 
-IDLE_SECONDS = 30  # between signs of life, and waits for a job, while a worker has none
+IDLE_SECONDS = 30  # a worker without a job gives a sign of life twice in so long
 FAR_SECONDS = 10**9
+
+
+def sign(worker: Worker, pipe: "Redis | Pipeline") -> None:
+    """Say that a worker lives, and serves its queues; also to a Redis that was emptied meanwhile."""
+    worker_registration.register(worker, pipe)  # type: ignore[arg-type]  # sadd alone, which both have
+    pipe.set(keys.worker_key(worker.name), socket.gethostname(), ex=IDLE_SECONDS)
+
+
+def unserved(client: Redis) -> list[Queue]:
+    """The queues that no living worker takes jobs from."""
+    return [name for name in QUEUES if not _hosts(client, worker_registration.WORKERS_BY_QUEUE_KEY % name)]
 
 
 def alive_here(client: Redis) -> bool:
     """Whether a worker of this machine gave a sign of life lately."""
-    latest = datetime.now(UTC) - timedelta(seconds=2 * IDLE_SECONDS)
-    workers = Worker.all(connection=client, serializer=JSONSerializer)
-    here = [worker for worker in workers if worker.hostname == socket.gethostname()]
-    return any(worker.last_heartbeat is not None and worker.last_heartbeat > latest for worker in here)
+    return socket.gethostname() in _hosts(client, worker_registration.REDIS_WORKER_KEYS)
+
+
+def _hosts(client: Redis, registry: str) -> list[str]:
+    """Where the living workers of one of RQ's sets are."""
+    workers = [key.removeprefix(Worker.redis_worker_namespace_prefix) for key in names(client.smembers(registry))]
+    return names(host for host in client.mget(map(keys.worker_key, workers)) if host) if workers else []
 
 
 def forget_workers(client: Redis) -> None:
     """Sweep what dead workers left in RQ's registries. Only where no worker can be alive: before the first starts."""
     for name in QUEUES:
-        queue = RqQueue(name, connection=client, serializer=JSONSerializer)
+        queue = rq_queue(name, client)
         queue.started_job_registry.cleanup(timestamp=time.time() + FAR_SECONDS)
         client.delete(queue.intermediate_queue_key)
     for worker in Worker.all(connection=client, serializer=JSONSerializer):
         worker.register_death()
-        client.delete(worker.key)
+        client.delete(worker.key, keys.worker_key(worker.name))

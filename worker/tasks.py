@@ -1,5 +1,6 @@
 """What a worker does: read an upload, analyse it, cut it, and keep the result. Each function is one RQ job."""
 
+import time
 from contextlib import suppress
 
 from core.alternatives import alternatives
@@ -18,7 +19,7 @@ from worker.cpu import available_threads
 from worker.errands import submit_alternatives
 from worker.mapping import mapped_parts, scratch_space
 from worker.place import place, stored_analysis
-from worker.retention import sweep
+from worker.retention import sweep_by_clock
 from worker.schema import AnalysisRecord, AnimationRecord, ViewerRecord
 from worker.warming import rehearse
 
@@ -66,7 +67,7 @@ def run_export(identifier: str, form: str) -> None:
 def run_sweep() -> None:
     """Forget what is kept too long."""
     settings, jobs, blobs = place().settings, place().jobs, place().blobs
-    sweep(jobs, blobs, settings.keep_upload_days * DAY, settings.keep_result_days * DAY)
+    sweep_by_clock(jobs, blobs, settings.keep_upload_days * DAY, settings.keep_result_days * DAY, time.time())
 
 
 def _analyse(attempt: Attempt) -> None:

@@ -46,4 +46,5 @@ class KeyRing:
         with self._redis.pipeline() as pipe:
             pipe.delete(keys.api_key_key(record.digest))
             pipe.hdel(keys.API_KEYS_KEY, name)
+            pipe.set(keys.DELETED_KEY, b"1")
             pipe.execute()

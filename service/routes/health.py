@@ -7,7 +7,7 @@ from prometheus_client import CONTENT_TYPE_LATEST
 
 from service.backend import Behind
 from service.errors import Refusal
-from service.headroom import looked
+from service.headroom import idle, looked
 from service.metrics import Metrics
 
 router = APIRouter(tags=["health"])
@@ -21,8 +21,11 @@ async def alive() -> Response:
 
 @router.get("/readyz")
 async def ready(backend: Behind) -> Response:
-    """Whether Redis, the disk and the store can be used and have room for more work; 503 says what has not."""
-    wrong = await looked(backend)
+    """Whether Redis, the disk and the store can be used and have room for more work, and whether warm workers take it
+
+    from both queues; 503 says what is missing.
+    """
+    wrong = await looked(backend) or await idle(backend)
     if wrong:
         raise Refusal("not-ready", wrong)
     return JSONResponse({"status": "ready"})

@@ -26,10 +26,10 @@ def test_limits_are_those_of_this_installation(idle):
     assert idle.http.get("/v1/limits").json() == {**Limits().model_dump(), "max_upload_bytes": UPLOAD_LIMIT}
 
 
-def test_it_is_alive_and_ready(idle):
+def test_it_is_alive_and_ready(service):
     """Both probes answer."""
-    assert idle.http.get("/healthz").json() == {"status": "ok"}
-    assert idle.http.get("/readyz").json() == {"status": "ready"}
+    assert service.http.get("/healthz").json() == {"status": "ok"}
+    assert service.http.get("/readyz").json() == {"status": "ready"}
 
 
 def test_metrics_are_in_prometheus_form(idle):

@@ -6,10 +6,11 @@ import pytest
 from obstore.exceptions import GenericError
 from redis.exceptions import ConnectionError as RedisAway
 from redis.exceptions import OutOfMemoryError
+from rq.timeouts import JobTimeoutException
 
 from core.errors import InvalidModel, from_problem
 from worker.attempt import carry_out
-from worker.queues import TimeLimit
+from worker.queues import JobTimer, TimeLimit
 
 
 @pytest.fixture
@@ -45,6 +46,39 @@ def test_too_much_is_not_tried_again(idle, queued, error, code):
     assert (failed.status, failed.attempt, failed.problem["code"]) == ("failed", 1, code)
     assert failed.problem["setting"] in failed.problem["detail"]
     assert not failed.settled
+
+
+def test_no_handler_takes_the_time_limit_for_a_fault_of_the_file(idle, queued):
+    """The timer strikes inside a reader that turns any exception into a problem: it is not stored for ever."""
+
+    def work(_):
+        try:
+            while True:
+                time.sleep(0.01)
+        except Exception as fault:
+            raise InvalidModel("malformed-shape", "The file is broken.") from fault
+
+    with JobTimer(1, JobTimeoutException):
+        carry_out(idle.jobs, queued.id, queued.token, work)
+    failed = idle.records.segmentations.one(queued.id)
+    assert (failed.status, failed.problem["code"], failed.settled) == ("failed", "out-of-time", False)
+
+
+def test_the_time_limit_while_another_end_is_written_is_told(idle, queued, monkeypatch):
+    """The timer strikes after the work has failed, and before the record says so."""
+    fail = idle.records.attempts.fail
+
+    def work(_):
+        raise InvalidModel("no-motion", "Nothing moves.")
+
+    def strike(*given):
+        monkeypatch.setattr(idle.records.attempts, "fail", fail)
+        raise TimeLimit
+
+    monkeypatch.setattr(idle.records.attempts, "fail", strike)
+    carry_out(idle.jobs, queued.id, queued.token, work)
+    failed = idle.records.segmentations.one(queued.id)
+    assert (failed.status, failed.problem["code"]) == ("failed", "out-of-time")
 
 
 @pytest.mark.parametrize("error", [OSError(28, "No space left on device"), RedisAway(), GenericError("unreachable")])

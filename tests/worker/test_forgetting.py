@@ -1,14 +1,16 @@
 """Deleting while others ask: whatever comes first, nothing is left that nobody would delete any more."""
 
 import threading
+import time
 from contextlib import suppress
 
 import pytest
 
+from worker import keys
 from worker.errands import submit_export
 from worker.forgetting import forget_animation, forget_segmentation
 from worker.records.segmentations import AnimationDeleted
-from worker.retention import sweep
+from worker.retention import sweep, sweep_by_clock
 
 
 def left(place, *identifiers):
@@ -91,3 +93,34 @@ def test_deleting_and_asking_at_once_leaves_all_or_nothing(idle, take):
     forget_animation(idle.jobs, idle.blobs, animation)
     assert left(idle, animation.id, idle.wanted(animation, motions=2).id)[0] == []
     assert idle.jobs.queues.depths() == {"analyse": 0, "cut": 0}
+
+
+def written(idle):
+    """All that the server's append-only file says."""
+    return b"".join(path.read_bytes() for path in (idle.settings.data_dir.parent / "redis").rglob("*.aof"))
+
+
+def test_names_of_what_was_deleted_leave_redis_with_the_next_sweep(idle, take):
+    """Its append-only file keeps what was written until it is written anew; without a deletion it is not."""
+    animation = idle.upload(take)
+    named = animation.model_copy(update={"name": "secret-dance"})
+    idle.redis.set(keys.animation_key(animation.id), named.model_dump_json())
+    assert idle.redis.delete(keys.DELETED_KEY) == 0
+    forget_animation(idle.jobs, idle.blobs, named)
+    idle.redis.execute_command("WAITAOF", 1, 0, 2000)
+    assert b"secret-dance" in written(idle)
+    sweep_by_clock(idle.jobs, idle.blobs, 1e9, 1e9, time.time())
+    deadline = time.monotonic() + 20
+    while b"secret-dance" in written(idle):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    assert not idle.redis.exists(keys.DELETED_KEY)
+
+
+def test_a_redis_that_may_not_be_told_to_rewrite_is_asked_again(idle, take, caplog):
+    """A managed one, or one whose keeper forbids the command: the sweep goes on, says so, and asks the next time."""
+    forget_animation(idle.jobs, idle.blobs, idle.upload(take))
+    idle.redis.execute_command("ACL", "SETUSER", "default", "-bgrewriteaof")
+    sweep_by_clock(idle.jobs, idle.blobs, 1e9, 1e9, time.time())
+    assert "names of what was deleted stay" in caplog.text
+    assert idle.redis.exists(keys.DELETED_KEY)

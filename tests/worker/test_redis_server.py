@@ -2,6 +2,7 @@
 
 import os
 import signal
+import subprocess
 import time
 
 import pytest
@@ -60,4 +61,26 @@ def test_a_system_server_serves_as_well(tmp_path, redis_server):
     server.start()
     with redis.Redis.from_url(server.url) as client:
         assert client.ping()
+    server.stop()
+
+
+def test_a_damaged_file_is_mended_by_the_program_that_is_there(tmp_path):
+    """Valkey's log names a program that is not installed; the error has a command that is, and it works."""
+    server = EmbeddedRedis(tmp_path)
+    server.start()
+    with connect(server.url) as client:
+        client.mset({"first": "kept"})
+        client.mset({f"later-{number}": "lost" for number in range(100)})
+    server.stop()
+    (file,) = tmp_path.glob("valkey/appendonlydir/*.incr.aof")
+    content = file.read_bytes()
+    file.write_bytes(content[:200] + bytes(20) + content[220:])
+    with pytest.raises(ServerUnavailable, match="append-only file is damaged") as refused:
+        server.start()
+    server.stop()
+    command = str(refused.value).partition("which is lost: ")[2]
+    subprocess.run(command, shell=True, input=b"y\n", check=True, timeout=30, stdout=subprocess.DEVNULL)
+    server.start()
+    with connect(server.url) as client:
+        assert client.keys() == [b"first"]
     server.stop()

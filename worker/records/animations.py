@@ -68,6 +68,7 @@ class Animations:
             pipe.delete(keys.animation_key(record.id))
             pipe.zrem(keys.animations_key(record.owner), record.id)
             pipe.zrem(keys.USED_KEY, record.id)
+            pipe.set(keys.DELETED_KEY, b"1")
             try:
                 pipe.execute()
             except redis.WatchError:

@@ -36,8 +36,8 @@ class Attempts:
         (client or self._redis).set(keys.lease_key(token), b"1", ex=LEASE_SECONDS)
 
     def leased(self, token: str) -> bool:
-        """Whether its worker said so lately."""
-        return bool(self._redis.exists(keys.lease_key(token)))
+        """Whether its worker said so lately. A longer lease than any was given while Redis's clock was ahead."""
+        return 0 <= self._redis.ttl(keys.lease_key(token)) <= LEASE_SECONDS
 
     def change(self, identifier: str, token: str, **changes: Any) -> SegmentationRecord | None:
         """Change a running segmentation's fields where `token` is still its attempt; None where it is not."""

@@ -96,6 +96,7 @@ class Segmentations:
             pipe.delete(keys.alternatives_key(record.id))
             pipe.zrem(keys.segmentations_key(record.animation), record.id)
             pipe.srem(keys.LIVE_KEY, record.id)
+            pipe.set(keys.DELETED_KEY, b"1")
             pipe.publish(keys.channel(record.id), b"deleted")
             try:
                 pipe.execute()
