@@ -9,6 +9,7 @@ from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddle
 
 from service import failures, openapi
 from service.backend import opened
+from service.body_limit import BodyLimit
 from service.guard import Guard
 from service.headroom import Headroom, room
 from service.metrics import Metrics
@@ -48,6 +49,7 @@ def create_app(settings: ServiceSettings) -> FastAPI:
     app.include_router(pages.router)
     pages.mount(app)
     openapi.describe(app)
+    app.add_middleware(BodyLimit, upload_bytes=settings.max_upload_bytes)
     app.add_middleware(GZipMiddleware, compresslevel=6, exclude_content_types=(*DEFAULT_EXCLUDED_CONTENT_TYPES, *FILES))
     app.add_middleware(ShortWay)
     app.add_middleware(Guard, settings=settings)

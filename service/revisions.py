@@ -16,7 +16,6 @@ from service.json_body import json_object
 from worker.revisions import MOST_REVISIONS, Revisions
 from worker.schema import SegmentationRecord
 
-MAX_BYTES = 256 * 1024
 LONGEST_NOTE = 500
 LONGEST_POINTER = 200
 
@@ -69,8 +68,7 @@ def expected(request: Request) -> int | None:
 
 async def order_of(request: Request) -> RevisionOrder:
     """The body, shaped as it must be; raises `ParameterError` with a pointer to the first fault."""
-    advice = "Send fewer segments or shorter names."
-    given = await json_object(request, MAX_BYTES, advice, '{"segments": […], "note": ""}')
+    given = await json_object(request, '{"segments": […], "note": ""}')
     try:
         order = RevisionOrder.model_validate(given)
     except ValidationError as refused:

@@ -13,9 +13,8 @@ from typing import Protocol
 from anyio import CancelScope, to_thread
 from fastapi import Request
 
-from core.errors import LimitExceeded
 from service.errors import Refusal
-from service.multipart import OVERHEAD_BYTES, MultipartBody, boundary
+from service.multipart import MultipartBody, boundary
 from service.settings import ServiceSettings
 from service.spool import Part, SpoolFile
 
@@ -66,17 +65,15 @@ class RawBody:
 async def received(request: Request, folder: Path, settings: ServiceSettings) -> AsyncIterator[Upload]:
     """The upload of `request`, in `folder` until the block ends; what is to stay must have been moved by then.
 
-    Raises `LimitExceeded` ("upload-too-large") as soon as more bytes than may be are passed, announced or not, and
-    `Refusal` ("storage-full") where what is still to come would fill the disk: others may be sending too.
+    Raises `Refusal` ("storage-full") where what is still to come would fill the disk: others may be sending too.
     """
-    limit = settings.max_upload_bytes
     mark = boundary(request.headers.get("content-type", ""))
     body: Body = await to_thread.run_sync(
         lambda: MultipartBody(folder, mark) if mark else RawBody(folder, request.query_params.get("name", ""))
     )
     try:
-        left = _announced(request)
-        async for block in _blocks(request, limit + (OVERHEAD_BYTES if mark else 0), limit):
+        left = int(request.headers.get("content-length", 0))
+        async for block in _blocks(request):
             left = max(left, len(block))
             await to_thread.run_sync(_check_disk, folder, left, settings.min_free_bytes)
             await to_thread.run_sync(body.feed, block)
@@ -88,16 +85,10 @@ async def received(request: Request, folder: Path, settings: ServiceSettings) ->
             await to_thread.run_sync(body.discard)
 
 
-async def _blocks(request: Request, most: int, limit: int) -> AsyncIterator[bytes]:
+async def _blocks(request: Request) -> AsyncIterator[bytes]:
     """The body in blocks large enough that handing one to a thread costs little."""
-    announced = _announced(request)
-    if announced > most:
-        raise _too_large(announced, limit)
-    count, block = 0, bytearray()
+    block = bytearray()
     async for chunk in request.stream():
-        count += len(chunk)
-        if count > most:
-            raise _too_large(count, limit)
         block += chunk
         if len(block) >= BLOCK_BYTES:
             yield bytes(block)
@@ -106,22 +97,7 @@ async def _blocks(request: Request, most: int, limit: int) -> AsyncIterator[byte
         yield bytes(block)
 
 
-def _announced(request: Request) -> int:
-    return int(request.headers.get("content-length", 0))
-
-
 def _check_disk(folder: Path, coming: int, stays_free: int) -> None:
     if shutil.disk_usage(folder).free - coming < stays_free:
         detail = "The disk of the service has no room for this upload. Nothing was kept; tell its keeper, or try later."
         raise Refusal("storage-full", detail, setting="CAESURA_MIN_FREE_BYTES")
-
-
-def _too_large(actual: int, limit: int) -> LimitExceeded:
-    return LimitExceeded(
-        "upload-too-large",
-        f"The upload is larger than the {limit} bytes this service takes. Send a smaller file, or ask its keeper to "
-        "raise CAESURA_MAX_UPLOAD_BYTES.",
-        limit=limit,
-        actual=actual,
-        setting="CAESURA_MAX_UPLOAD_BYTES",
-    )

@@ -16,6 +16,7 @@ from service.descriptions import EVENTS, SUBMISSION, SUBMITTED
 from service.documents import SegmentationPage, StatusDocument
 from service.events import event_id, seated, status_events
 from service.intake import keep
+from service.json_body import is_json
 from service.orders import json_order, query_order
 from service.paging import Cursor, Limit, created_before, cursor_of
 from service.preferences import wait_seconds
@@ -35,7 +36,7 @@ async def create(request: Request, backend: Behind, owner: Owner) -> Response:
 
     The same file and parameters again are the same segmentation, and no second job.
     """
-    if request.headers.get("content-type", "").partition(";")[0].strip().lower() == "application/json":
+    if is_json(request.headers):
         order = await json_order(request)
     else:
         order = query_order(request.query_params)
