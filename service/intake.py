@@ -29,6 +29,7 @@ def keep(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tu
     if kept is not None and kept.parts:
         backend.jobs.records.animations.touch(identifier)
         return kept, False
+    takes = tuple(TakeSummary.model_validate(take, from_attributes=True) for take in header.takes)
     record = AnimationRecord(
         id=identifier,
         owner=owner,
@@ -38,12 +39,13 @@ def keep(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tu
             schema.Part(name=part.name, key=backend.blobs.adopt(part.path), bytes=part.bytes)
             for part in [main, *(other for other in parts if other is not main)]
         ),
-        takes=tuple(TakeSummary.model_validate(take, from_attributes=True) for take in header.takes),
+        take_count=len(takes),
+        seconds=max((take.duration_seconds for take in takes), default=None),
         vertices=header.vertices,
         triangles=header.triangles,
         created=time.time(),
     )
-    kept, ours = backend.jobs.records.animations.add(record)
+    kept, ours = backend.jobs.records.animations.add(record, takes)
     if not ours:
         for part in record.parts:
             backend.blobs.delete(part.key)

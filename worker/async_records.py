@@ -9,7 +9,7 @@ from worker import keys
 from worker.connection import names
 from worker.listening import Listener, Words
 from worker.owned import OwnedReads
-from worker.schema import AnimationRecord, ExportRecord, SegmentationRecord
+from worker.schema import TAKES, AnimationRecord, ExportRecord, SegmentationRecord, TakeSummary
 from worker.together import Together
 
 REREAD_SECONDS = 3.0  # a message may be missed where a connection breaks
@@ -38,10 +38,13 @@ class AsyncRecords:
 
     async def animations(self, owner: str, limit: int, before: float | None = None) -> list[AnimationRecord]:
         """An owner's animations, newest first; `before` is the `created` of the last one seen."""
-        highest = "+inf" if before is None else f"({before!r}"
-        ids = names(await self.redis.zrevrangebyscore(keys.animations_key(owner), highest, "-inf", start=0, num=limit))
+        ids = await self._newest(keys.animations_key(owner), limit, before)
         stored = await self.redis.mget([keys.animation_key(i) for i in ids]) if ids else []
         return [record for record in map(AnimationRecord.read, stored) if record is not None]
+
+    async def takes(self, record: AnimationRecord) -> tuple[TakeSummary, ...]:
+        """The takes of an animation."""
+        return record.takes or TAKES.validate_json(await self.redis.get(keys.takes_key(record.id)) or b"[]")
 
     async def segmentation(self, identifier: str) -> SegmentationRecord | None:
         """The segmentation, or None."""
@@ -51,11 +54,18 @@ class AsyncRecords:
         """The record of the owner's segmentation as it is stored, or None."""
         return await self._owned.get((keys.segmentation_key(identifier), owner))
 
-    async def segmentations(self, animation: str) -> list[SegmentationRecord]:
-        """All segmentations of an animation, newest first."""
-        ids = names(await self.redis.zrevrange(keys.segmentations_key(animation), 0, -1))
-        stored = await self.redis.mget([keys.segmentation_key(i) for i in ids]) if ids else []
-        return [record for record in map(SegmentationRecord.read, stored) if record is not None]
+    async def segmentations(
+        self, animation: str, limit: int, before: float | None = None
+    ) -> AsyncGenerator[SegmentationRecord]:
+        """The segmentations of an animation, newest first, one read after the other: each may have many segments."""
+        for identifier in await self._newest(keys.segmentations_key(animation), limit, before):
+            record = await self.segmentation(identifier)
+            if record is not None:
+                yield record
+
+    async def _newest(self, key: str, limit: int, before: float | None) -> list[str]:
+        highest = "+inf" if before is None else f"({before!r}"
+        return names(await self.redis.zrevrangebyscore(key, highest, "-inf", start=0, num=limit))
 
     async def document(self, identifier: str) -> bytes | None:
         """The result document, JSON, as stored."""

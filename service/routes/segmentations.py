@@ -1,6 +1,5 @@
 """Segmentations: asking for one, following it, cancelling or deleting it."""
 
-import itertools
 from functools import partial
 from typing import Annotated
 
@@ -62,14 +61,14 @@ async def of_animation(
     limit: Limit = 20,
     cursor: Cursor = "",
 ) -> Response:
-    """The segmentations of one animation, newest first."""
+    """The segmentations of one animation, newest first, without their segments."""
     await backend.animation(animation, owner)
-    before = created_before(cursor)
-    known = await backend.records.segmentations(animation)
-    page = list(itertools.islice((r for r in known if before is None or r.created < before), limit))
+    known = backend.records.segmentations(animation, limit, created_before(cursor))
+    page = [record.with_(segments=()) async for record in known]
+    entries = tuple(StatusDocument.of(record).model_copy(update={"segments": None}) for record in page)
     address = f"/v1/segmentations?animation={animation}&limit={limit}&cursor="
     more = address + cursor_of(page[-1].created) if len(page) == limit else None
-    return answer(SegmentationPage(segmentations=tuple(map(StatusDocument.of, page)), next=more))
+    return answer(SegmentationPage(segmentations=entries, next=more))
 
 
 @router.get("/{identifier}", response_model=StatusDocument)

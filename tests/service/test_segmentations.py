@@ -60,6 +60,7 @@ def test_other_parameters_are_another_segmentation_of_the_same_animation(service
     assert two["animation"] == three["animation"]
     listed = service.http.get("/v1/segmentations", params={"animation": two["animation"]}).json()["segmentations"]
     assert [one["id"] for one in listed] == [three["id"], two["id"]]
+    assert [one["segments"] for one in listed] == [None, None]  # a long take has thousands
 
 
 def test_without_a_wait_the_answer_comes_at_once(idle, take):
