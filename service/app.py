@@ -39,6 +39,7 @@ def create_app(settings: ServiceSettings) -> FastAPI:
         lifespan=lifespan,
         docs_url=None,  # FastAPI's page loads scripts from another site
         redoc_url=None,
+        redirect_slashes=False,  # a redirect would go to whatever host the client names
         generate_unique_id_function=openapi.operation_name,
     )
     app.state.headroom = Headroom()

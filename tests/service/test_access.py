@@ -384,6 +384,23 @@ def test_each_key_is_counted_for_itself_and_all_wrong_ones_together(checkout, gu
         assert asked(theirs) == 200
 
 
+@pytest.mark.parametrize(("proxies", "limited"), [("", True), ("127.0.0.0/8", False)], ids=["nobody", "named"])
+def test_who_asks_is_believed_of_a_named_proxy_alone(checkout, tmp_path, proxies, limited):
+    """Else a client that says another address with each request would never meet a limit."""
+    settings = {"requests_a_minute": 2, "proxies": proxies}
+    with with_its_own_redis(checkout, tmp_path, workers=False, **settings) as other:
+        asked = [other.http.get("/v1/limits", headers={"X-Forwarded-For": f"10.0.0.{n}"}).status_code for n in range(4)]
+    assert asked == ([200, 200, 429, 429] if limited else [200] * 4)
+
+
+def test_nobody_is_sent_to_a_host_that_the_client_names(owned):
+    """A path with a slash too many is not found: a redirect would go to that host."""
+    headers = {"Authorization": f"Bearer {owned.mine}", "Host": "elsewhere.example"}
+    answer = owned.sent("GET", "/v1/animations/", headers=headers)
+    assert (answer.status_code, answer.json()["code"]) == (404, "not-found")
+    assert "elsewhere" not in str(answer.headers)
+
+
 @pytest.mark.parametrize(
     ("host", "access", "needed"),
     [
