@@ -18,7 +18,6 @@ from service.request_log import RequestLog
 from service.routes import about, animations, clips, health, pages, results, revisions, segmentations, session
 from service.security import SecurityHeaders
 from service.settings import ServiceSettings
-from service.short_way import ShortWay
 
 FILES = ("application/octet-stream", "application/x-npz", "application/zip", "model/*")
 """Served by Range, or packed already: a compressed form would be another file."""
@@ -52,7 +51,6 @@ def create_app(settings: ServiceSettings) -> FastAPI:
     openapi.describe(app)
     app.add_middleware(BodyLimit, upload_bytes=settings.max_upload_bytes)
     app.add_middleware(GZipMiddleware, compresslevel=6, exclude_content_types=(*DEFAULT_EXCLUDED_CONTENT_TYPES, *FILES))
-    app.add_middleware(ShortWay)
     app.add_middleware(Guard, settings=settings)
     app.add_middleware(SecurityHeaders)
     app.add_middleware(RequestLog, metrics=app.state.metrics)

@@ -99,6 +99,6 @@ async def document_of(backend: Backend, record: SegmentationRecord, number: int)
     return await to_thread.run_sync(_read, stored, number, kept[1] if kept else None)
 
 
-def _read(stored: bytes, number: int, edits: tuple[Edit, ...] | None) -> SegmentationDocument:
+def _read(stored: bytes | str, number: int, edits: tuple[Edit, ...] | None) -> SegmentationDocument:
     document = SegmentationDocument.model_validate_json(stored)
     return document if edits is None else revised(document, number, edits)

@@ -9,7 +9,7 @@ from fastapi.responses import StreamingResponse
 
 from core.parameters import Parameters
 from service.access import Owner
-from service.answers import answer, outcome, preference_applied, text_answer
+from service.answers import answer, outcome, preference_applied
 from service.backend import Behind
 from service.descriptions import EVENTS, SUBMISSION, SUBMITTED
 from service.documents import SegmentationPage, StatusDocument
@@ -74,10 +74,7 @@ async def of_animation(
 @router.get("/{identifier}", response_model=StatusDocument)
 async def status(identifier: str, request: Request, backend: Behind, owner: Owner) -> Response:
     """How far it is; with `Prefer: wait=N`, as soon as it is over, at most N seconds from now."""
-    known, seconds = await backend.told(identifier, owner), wait_seconds(request)
-    if known.record.status != "queued" and (seconds is None or not known.record.live):
-        return text_answer(known.text, headers=preference_applied(request))
-    record = await backend.awaited(known.record, seconds)
+    record = await backend.awaited(await backend.segmentation(identifier, owner), wait_seconds(request))
     return answer(StatusDocument.of(record, await backend.position(record)), 200, preference_applied(request))
 
 
