@@ -10,7 +10,7 @@ def main() -> None:
     """Serve until told to stop."""
     settings = ServiceSettings()
     logs.configure(settings.log_format)
-    Server(create_app(settings), settings.host, settings.port).run()
+    Server(create_app(settings), settings.host, settings.port, settings.proxies).run()
 
 
 if __name__ == "__main__":

@@ -16,11 +16,7 @@ ASK_AGAIN = {"Retry-After": "1"}
 
 def answer(document: BaseModel, status: int = 200, headers: Mapping[str, str] | None = None) -> Response:
     """A document as JSON."""
-    return text_answer(document.model_dump_json(), status, headers)
-
-
-def text_answer(text: str, status: int = 200, headers: Mapping[str, str] | None = None) -> Response:
-    """JSON that is there as text."""
+    text = document.model_dump_json()
     return Response(text, status, {"Cache-Control": "no-store", **(headers or {})}, "application/json")
 
 

@@ -9,6 +9,7 @@ from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddle
 
 from service import failures, openapi
 from service.backend import opened
+from service.body_limit import BodyLimit
 from service.guard import Guard
 from service.headroom import Headroom, room
 from service.metrics import Metrics
@@ -17,7 +18,6 @@ from service.request_log import RequestLog
 from service.routes import about, animations, clips, health, pages, results, revisions, segmentations, session
 from service.security import SecurityHeaders
 from service.settings import ServiceSettings
-from service.short_way import ShortWay
 
 FILES = ("application/octet-stream", "application/x-npz", "application/zip", "model/*")
 """Served by Range, or packed already: a compressed form would be another file."""
@@ -38,6 +38,7 @@ def create_app(settings: ServiceSettings) -> FastAPI:
         lifespan=lifespan,
         docs_url=None,  # FastAPI's page loads scripts from another site
         redoc_url=None,
+        redirect_slashes=False,  # a redirect would go to whatever host the client names
         generate_unique_id_function=openapi.operation_name,
     )
     app.state.headroom = Headroom()
@@ -48,8 +49,8 @@ def create_app(settings: ServiceSettings) -> FastAPI:
     app.include_router(pages.router)
     pages.mount(app)
     openapi.describe(app)
+    app.add_middleware(BodyLimit, upload_bytes=settings.max_upload_bytes)
     app.add_middleware(GZipMiddleware, compresslevel=6, exclude_content_types=(*DEFAULT_EXCLUDED_CONTENT_TYPES, *FILES))
-    app.add_middleware(ShortWay)
     app.add_middleware(Guard, settings=settings)
     app.add_middleware(SecurityHeaders)
     app.add_middleware(RequestLog, metrics=app.state.metrics)

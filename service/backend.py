@@ -16,7 +16,6 @@ from service.errors import Refusal
 from service.key_file import KeyFile
 from service.seats import Seats
 from service.settings import ServiceSettings
-from service.told import Told, told
 from worker import ids
 from worker.async_records import AsyncRecords
 from worker.blobs import Blobs
@@ -59,19 +58,10 @@ class Backend:
 
     async def segmentation(self, identifier: str, owner: str) -> SegmentationRecord:
         """The segmentation, or the refusal to say whether it exists."""
-        return (await self.told(identifier, owner)).record
-
-    async def told(self, identifier: str, owner: str) -> Told:
-        """The segmentation and its status document, or the refusal to say whether it exists."""
-        known = await self.known(identifier, owner)
-        if known is None:
+        record = await self.records.owned_segmentation(identifier, owner)
+        if record is None:
             raise Refusal("not-found", f"There is no segmentation {identifier}. It may have been deleted.")
-        return known
-
-    async def known(self, identifier: str, owner: str) -> Told | None:
-        """The same; None where there is none, or it is another's: for both the same is looked up."""
-        stored = await self.records.owned_segmentation(identifier, owner)
-        return None if stored is None else told(stored)
+        return record
 
     @contextmanager
     def patience(self, seconds: float = math.inf) -> Iterator[CancelScope]:

@@ -25,6 +25,7 @@ STATUS: dict[str, int] = {
     "parameter": 422,
     # codes, where one of a kind has a status of its own
     "upload-too-large": 413,
+    "json-too-long": 400,
     "key-needed": 401,
     "unknown-key": 401,
     "not-allowed": 403,

@@ -8,11 +8,10 @@ from core.formats.header import Header, read_header
 from core.formats.sniffing import SNIFFED, sniff
 from service.backend import Backend
 from service.errors import Refusal
+from service.file_name import plain_name
 from service.spool import Part
 from worker import ids, schema
 from worker.schema import AnimationRecord, TakeSummary
-
-LONGEST_NAME = 200
 
 
 def keep(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tuple[AnimationRecord, bool]:
@@ -34,21 +33,23 @@ def keep(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tu
     elif kept is not None and kept.parts:
         backend.jobs.records.animations.touch(identifier)
         return kept, False
+    takes = tuple(TakeSummary.model_validate(take, from_attributes=True) for take in header.takes)
     record = AnimationRecord(
         id=identifier,
         owner=owner,
-        name=_plain(name or main.name) or f"animation.{header.format}",
+        name=plain_name(name or main.name) or f"animation.{header.format}",
         format=header.format,
         parts=tuple(
             schema.Part(name=part.name, key=backend.blobs.adopt(part.path), bytes=part.bytes)
             for part in [main, *(other for other in parts if other is not main)]
         ),
-        takes=tuple(TakeSummary.model_validate(take, from_attributes=True) for take in header.takes),
+        take_count=len(takes),
+        seconds=max((take.duration_seconds for take in takes), default=None),
         vertices=header.vertices,
         triangles=header.triangles,
         created=time.time(),
     )
-    kept, ours = backend.jobs.records.animations.add(record)
+    kept, ours = backend.jobs.records.animations.add(record, takes)
     if not ours:
         for part in record.parts:
             backend.blobs.delete(part.key)
@@ -107,9 +108,3 @@ def _twice(names: Iterable[str]) -> str | None:
             return name
         seen.add(name)
     return None
-
-
-def _plain(name: str) -> str:
-    """The last step of a path, without what does not print: a name to show, never one to open."""
-    last = name.replace("\\", "/").rpartition("/")[2]
-    return "".join(letter for letter in last if letter.isprintable())[:LONGEST_NAME]

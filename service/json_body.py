@@ -1,26 +1,23 @@
-"""A JSON body, read no further than it may be long: what it says is checked by who asked for it."""
+"""A JSON body: an object, whose fields are checked by who asked for it. `service.body_limit` bounds its length."""
 
 import json
 from typing import Any
 
 from fastapi import Request
+from starlette.datastructures import Headers
 
 from service.errors import Refusal
 
 
-async def json_object(request: Request, longest: int, advice: str, example: str) -> dict[str, Any]:
-    """The object that the body is.
+def is_json(headers: Headers) -> bool:
+    """Whether the body is announced as JSON."""
+    return headers.get("content-type", "").partition(";")[0].strip().lower() == "application/json"
 
-    Raises `Refusal` for what is no JSON object, and, with `advice`, for one of more than `longest` bytes.
-    """
-    text = bytearray()
-    async for chunk in request.stream():
-        text += chunk
-        if len(text) > longest:
-            detail = f"The JSON is longer than {longest} bytes. {advice}"
-            raise Refusal("json-too-long", detail, limit=longest, actual=len(text))
+
+async def json_object(request: Request, example: str) -> dict[str, Any]:
+    """The object that the body is; raises `Refusal` for what is no JSON object."""
     try:
-        given = json.loads(bytes(text))
+        given = json.loads(await request.body())
         json.dumps(given, ensure_ascii=False).encode()  # half a surrogate pair is no text: no key and no answer
     except (ValueError, RecursionError):
         raise Refusal("malformed-json", "The body is no JSON.") from None

@@ -39,6 +39,7 @@ class MultipartBody:
         self._target: SpoolFile | bytearray = bytearray()
         self._header = (bytearray(), bytearray())
         self._disposition = b""
+        self._parts = 0
         self._ended = False
         try:
             self._parser = MultipartParser(mark, self._callbacks())
@@ -81,7 +82,8 @@ class MultipartBody:
         self._header = (bytearray(), bytearray())
 
     def _part_begins(self) -> None:
-        if len(self._files) + len(self._fields) == MAX_PARTS:
+        self._parts += 1
+        if self._parts > MAX_PARTS:
             raise Refusal("too-many-parts", f"The form has more than {MAX_PARTS} parts. Send fewer files.")
         _, options = parse_options_header(self._disposition)
         self._disposition = b""

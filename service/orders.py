@@ -9,8 +9,6 @@ from fastapi import Request
 from core.errors import ParameterError
 from service.json_body import json_object
 
-MAX_JSON_BYTES = 64 * 1024
-
 
 @dataclass(frozen=True)
 class Order:
@@ -37,9 +35,8 @@ def query_order(query: Mapping[str, str]) -> Order:
 
 
 async def json_order(request: Request) -> Order:
-    """From a JSON body, with the same names. Raises `Refusal` for what is no JSON object, or a very long one."""
-    advice = "Send a file as the body, without a JSON type."
-    given = await json_object(request, MAX_JSON_BYTES, advice, '{"animation": "…", "motions": 5}')
+    """From a JSON body, with the same names. Raises `Refusal` for what is no JSON object."""
+    given = await json_object(request, '{"animation": "…", "motions": 5}')
     if request.query_params:
         detail = "Parameters of a JSON call belong into the JSON, not into the query."
         raise ParameterError("misplaced-parameter", detail, parameter=next(iter(request.query_params)))

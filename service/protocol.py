@@ -1,11 +1,12 @@
-"""HTTP as uvicorn reads it, with an end to what it would take for ever: a head without end, a client that is silent.
+"""HTTP as uvicorn speaks it, with limits: to the length of a head, and to how long a client may say or take nothing.
 
-Neither needs a key, so neither may cost memory, or a connection for longer than a moment.
+None needs a key, so none may cost memory, or a connection for longer than a moment.
 """
 
 import asyncio
 import http
 import json
+import socket
 from typing import Any
 
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
@@ -33,6 +34,8 @@ class Protocol(HttpToolsProtocol):
     """For the whole head, from the connection or from its first byte on."""
     body_seconds = 60.0
     """Between two pieces of a body that we are waiting for."""
+    write_seconds = 60.0
+    """Before a client that takes nothing of its answer is dropped. Linux keeps this time; elsewhere nobody does."""
     look_seconds = 5.0
 
     _looking: asyncio.TimerHandle | None = None
@@ -43,6 +46,9 @@ class Protocol(HttpToolsProtocol):
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]  # as uvicorn has it
         """Somebody came."""
         super().connection_made(transport)
+        if hasattr(socket, "TCP_USER_TIMEOUT"):
+            milliseconds = int(self.write_seconds * 1000)
+            transport.get_extra_info("socket").setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, milliseconds)
         self._began = self._heard = self.loop.time()
         self._looking = self.loop.call_later(self.look_seconds, self._look)
 

@@ -9,6 +9,7 @@ from fastapi import Request, Response
 from fastapi.responses import StreamingResponse
 
 from service.errors import Refusal
+from service.file_name import plain_name
 from worker.blobs import Blobs
 
 _RANGE = re.compile(r"bytes=(\d{0,18})-(\d{0,18})")
@@ -55,8 +56,9 @@ def caching(etag: str) -> dict[str, str]:
 
 def attachment(filename: str) -> str:
     """The header that names a download, in plain letters too: curl reads no `filename*`."""
-    plain = re.sub(r"[^A-Za-z0-9 ._()+-]", "_", filename)
-    return f"attachment; filename=\"{plain}\"; filename*=UTF-8''{quote(filename)}"
+    name = plain_name(filename) or "download"
+    plain = re.sub(r"[^A-Za-z0-9 ._()+-]", "_", name)
+    return f"attachment; filename=\"{plain}\"; filename*=UTF-8''{quote(name, safe='')}"
 
 
 def stored_response(request: Request, blobs: Blobs, stored: Stored) -> Response:

@@ -16,7 +16,6 @@ from service.json_body import json_object
 from worker.revisions import MOST_REVISIONS, Revisions
 from worker.schema import SegmentationRecord
 
-MAX_BYTES = 256 * 1024
 LONGEST_NOTE = 500
 LONGEST_POINTER = 200
 
@@ -69,8 +68,7 @@ def expected(request: Request) -> int | None:
 
 async def order_of(request: Request) -> RevisionOrder:
     """The body, shaped as it must be; raises `ParameterError` with a pointer to the first fault."""
-    advice = "Send fewer segments or shorter names."
-    given = await json_object(request, MAX_BYTES, advice, '{"segments": […], "note": ""}')
+    given = await json_object(request, '{"segments": […], "note": ""}')
     try:
         order = RevisionOrder.model_validate(given)
     except ValidationError as refused:
@@ -101,6 +99,6 @@ async def document_of(backend: Backend, record: SegmentationRecord, number: int)
     return await to_thread.run_sync(_read, stored, number, kept[1] if kept else None)
 
 
-def _read(stored: bytes, number: int, edits: tuple[Edit, ...] | None) -> SegmentationDocument:
+def _read(stored: bytes | str, number: int, edits: tuple[Edit, ...] | None) -> SegmentationDocument:
     document = SegmentationDocument.model_validate_json(stored)
     return document if edits is None else revised(document, number, edits)

@@ -1,6 +1,7 @@
 """From an animation and parameters to a segmentation that is queued, or known already."""
 
 import time
+from collections.abc import Sequence
 
 from core.formats.takes import choose_take
 from core.parameters import ALGORITHM, TOLD_MOTIONS, Parameters
@@ -8,15 +9,14 @@ from service.backend import Backend
 from service.errors import Refusal
 from worker import ids, logs
 from worker.alternatives import recall
-from worker.schema import AnimationRecord, SegmentationRecord
+from worker.schema import AnimationRecord, SegmentationRecord, TakeSummary
 
 
-def resolved(parameters: Parameters, animation: AnimationRecord) -> Parameters:
+def resolved(parameters: Parameters, takes: Sequence[TakeSummary]) -> Parameters:
     """The same with the take by its index, so that its name, its index and `longest` are one segmentation.
 
     Raises `ParameterError` for a take that is not there. What a header does not tell is left to the worker.
     """
-    takes = animation.takes
     if not takes:
         return parameters
     place = choose_take([take.name for take in takes], parameters.take)
@@ -32,7 +32,7 @@ def submit(backend: Backend, animation: AnimationRecord, parameters: Parameters,
 
     Raises `Refusal` ("gone") where it would have to be computed and the upload's files are no longer kept.
     """
-    chosen = resolved(parameters, animation)
+    chosen = resolved(parameters, backend.jobs.records.animations.takes(animation))
     identifier = _identifier(backend, animation, chosen)
     now = time.time()
     wanted = SegmentationRecord(

@@ -12,10 +12,9 @@ from typing import NoReturn, Protocol
 from anyio import CancelScope, move_on_after, to_thread
 from fastapi import Request
 
-from core.errors import LimitExceeded
 from service.backend import Backend
 from service.errors import Refusal
-from service.multipart import OVERHEAD_BYTES, MultipartBody, boundary
+from service.multipart import MultipartBody, boundary
 from service.spool import Part, SpoolFile
 from worker.disk_space import check_disk_space
 
@@ -67,20 +66,18 @@ class RawBody:
 async def received(request: Request, backend: Backend) -> AsyncIterator[Upload]:
     """The upload of `request`, in the spool until the block ends; what is to stay must have been moved by then.
 
-    Raises `LimitExceeded` ("upload-too-large") as soon as more bytes than may be are passed, announced or not,
-    `StorageFull` where what is still to come would fill the disk, for others may be sending too, and `Refusal`
+    Raises `StorageFull` where what is still to come would fill the disk, for others may be sending too, and `Refusal`
     ("not-ready") where the process is told to stop before all has come.
     """
     settings, folder = backend.settings, backend.spool
-    limit = settings.max_upload_bytes
     mark = boundary(request.headers.get("content-type", ""))
     body: Body = await to_thread.run_sync(
         lambda: MultipartBody(folder, mark) if mark else RawBody(folder, request.query_params.get("name", ""))
     )
     try:
-        left = _announced(request)
+        left = int(request.headers.get("content-length", 0))
         with backend.patience() as scope:
-            async for block in _blocks(request, limit + (OVERHEAD_BYTES if mark else 0), limit):
+            async for block in _blocks(request):
                 left = max(left, len(block))
                 await to_thread.run_sync(check_disk_space, folder, left, settings.min_free_bytes)
                 await to_thread.run_sync(body.feed, block)
@@ -94,16 +91,10 @@ async def received(request: Request, backend: Backend) -> AsyncIterator[Upload]:
             await to_thread.run_sync(body.discard)
 
 
-async def _blocks(request: Request, most: int, limit: int) -> AsyncIterator[bytes]:
+async def _blocks(request: Request) -> AsyncIterator[bytes]:
     """The body in blocks large enough that handing one to a thread costs little."""
-    announced = _announced(request)
-    if announced > most:
-        raise _too_large(announced, limit)
-    count, block = 0, bytearray()
+    block = bytearray()
     async for chunk in request.stream():
-        count += len(chunk)
-        if count > most:
-            raise _too_large(count, limit)
         block += chunk
         if len(block) >= BLOCK_BYTES:
             yield bytes(block)
@@ -112,24 +103,9 @@ async def _blocks(request: Request, most: int, limit: int) -> AsyncIterator[byte
         yield bytes(block)
 
 
-def _announced(request: Request) -> int:
-    return int(request.headers.get("content-length", 0))
-
-
 async def _refuse_rest(request: Request) -> NoReturn:
     """Raise the refusal of a process that stops, after a moment: closed on unread bytes, the connection loses it."""
     with move_on_after(FAREWELL_SECONDS):
         async for _ in request.stream():
             pass
     raise Refusal("not-ready", "The service is stopping. Nothing was kept; send it again in a moment.")
-
-
-def _too_large(actual: int, limit: int) -> LimitExceeded:
-    return LimitExceeded(
-        "upload-too-large",
-        f"The upload is larger than the {limit} bytes this service takes. Send a smaller file, or ask its keeper to "
-        "raise CAESURA_MAX_UPLOAD_BYTES.",
-        limit=limit,
-        actual=actual,
-        setting="CAESURA_MAX_UPLOAD_BYTES",
-    )

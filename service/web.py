@@ -16,7 +16,7 @@ def main() -> None:
     listening = socket.socket(fileno=parser.parse_args().socket)
     settings = ServiceSettings()
     logs.configure(settings.log_format)
-    Server(create_app(settings)).run(sockets=[listening])
+    Server(create_app(settings), proxies=settings.proxies).run(sockets=[listening])
 
 
 if __name__ == "__main__":

@@ -20,9 +20,6 @@ from worker import keys
 from worker.records import Records
 from worker.schema import SegmentationRecord
 
-ENERGY = b'"energy":['
-"""Where the curve stands in a document. Nowhere else: inside of a text these quotes would be escaped."""
-
 
 def add_alternative(records: Records, identifier: str, document: SegmentationDocument) -> bool:
     """Keep one beside a result; False, and nothing kept, where the result is not there any more."""
@@ -53,7 +50,8 @@ def recall(records: Records, wanted: SegmentationRecord, beside: str) -> Segment
     if not isinstance(stored, bytes) or result is None or whole is None or energy is None:
         return None
     alternative = SegmentationDocument.model_validate_json(zlib.decompress(stored))
-    document = _with_energy(alternative.model_copy(update={"id": wanted.id}), whole)
+    curve = SegmentationDocument.model_validate_json(whole).energy
+    document = alternative.model_copy(update={"id": wanted.id, "energy": curve}).model_dump_json()
 
     def change(kept: SegmentationRecord) -> SegmentationRecord | None:
         if kept is not wanted and (kept.live or kept.settled):
@@ -86,9 +84,3 @@ def labels_of(segments: tuple[Segment, ...]) -> bytes:
     if byteorder == "big":
         labels.byteswap()
     return labels.tobytes()
-
-
-def _with_energy(alternative: SegmentationDocument, whole: bytes) -> bytes:
-    """The alternative's document with the curve of another: its text is moved over, for reading it takes longer."""
-    before, after = alternative.model_dump_json().encode().split(ENERGY)
-    return before + ENERGY + whole.split(ENERGY)[1].partition(b"]")[0] + after

@@ -3,14 +3,12 @@
 from collections.abc import AsyncGenerator
 from contextlib import aclosing
 
-import redis.asyncio
+from redis.asyncio import BlockingConnectionPool, Redis
 
 from worker import keys
 from worker.connection import names
 from worker.listening import Listener, Words
-from worker.owned import OwnedReads
-from worker.schema import AnimationRecord, ExportRecord, SegmentationRecord
-from worker.together import Together
+from worker.schema import TAKES, AnimationRecord, ExportRecord, SegmentationRecord, TakeSummary
 
 REREAD_SECONDS = 3.0  # a message may be missed where a connection breaks
 STILL_LIVE: Words = frozenset({b"queued", b"running"})
@@ -20,54 +18,55 @@ class AsyncRecords:
     """The same records as the web process reads them. It changes nothing: that goes through `Jobs`."""
 
     def __init__(self, url: str) -> None:
-        self.redis: redis.asyncio.Redis = redis.asyncio.Redis.from_url(url, health_check_interval=30)
-        self._together = Together(self.redis.mget)
-        self._owned = Together(OwnedReads(self.redis))
+        self.redis: Redis = Redis.from_pool(BlockingConnectionPool.from_url(url, health_check_interval=30))
         self._listener = Listener(self.redis)
 
     async def close(self) -> None:
         """Give the connections back."""
-        await self._together.close()
-        await self._owned.close()
         await self._listener.close()
         await self.redis.aclose()
 
     async def owned_animation(self, identifier: str, owner: str) -> AnimationRecord | None:
-        """The owner's animation, or None."""
-        return AnimationRecord.read(await self._owned.get((keys.animation_key(identifier), owner)))
+        """The owner's animation; None where there is none, or it is another's."""
+        record = AnimationRecord.read(await self.redis.get(keys.animation_key(identifier)))
+        return record if record is not None and record.owner == owner else None
 
     async def animations(self, owner: str, limit: int, before: float | None = None) -> list[AnimationRecord]:
         """An owner's animations, newest first; `before` is the `created` of the last one seen."""
-        highest = "+inf" if before is None else f"({before!r}"
-        ids = names(await self.redis.zrevrangebyscore(keys.animations_key(owner), highest, "-inf", start=0, num=limit))
+        ids = await self._newest(keys.animations_key(owner), limit, before)
         stored = await self.redis.mget([keys.animation_key(i) for i in ids]) if ids else []
         return [record for record in map(AnimationRecord.read, stored) if record is not None]
 
+    async def takes(self, record: AnimationRecord) -> tuple[TakeSummary, ...]:
+        """The takes of an animation."""
+        return record.takes or TAKES.validate_json(await self.redis.get(keys.takes_key(record.id)) or b"[]")
+
     async def segmentation(self, identifier: str) -> SegmentationRecord | None:
         """The segmentation, or None."""
-        return SegmentationRecord.read(await self._together.get(keys.segmentation_key(identifier)))
+        return SegmentationRecord.read(await self.redis.get(keys.segmentation_key(identifier)))
 
-    async def owned_segmentation(self, identifier: str, owner: str) -> bytes | None:
-        """The record of the owner's segmentation as it is stored, or None."""
-        return await self._owned.get((keys.segmentation_key(identifier), owner))
+    async def owned_segmentation(self, identifier: str, owner: str) -> SegmentationRecord | None:
+        """The owner's segmentation; None where there is none, or it is another's."""
+        # The parts of a result lie under keys that begin like the record's: `ID:document` is no id.
+        record = None if ":" in identifier else await self.segmentation(identifier)
+        return record if record is not None and record.owner == owner else None
 
-    async def segmentations(self, animation: str) -> list[SegmentationRecord]:
-        """All segmentations of an animation, newest first."""
-        ids = names(await self.redis.zrevrange(keys.segmentations_key(animation), 0, -1))
-        stored = await self.redis.mget([keys.segmentation_key(i) for i in ids]) if ids else []
-        return [record for record in map(SegmentationRecord.read, stored) if record is not None]
+    async def segmentations(
+        self, animation: str, limit: int, before: float | None = None
+    ) -> AsyncGenerator[SegmentationRecord]:
+        """The segmentations of an animation, newest first, one read after the other: each may have many segments."""
+        for identifier in await self._newest(keys.segmentations_key(animation), limit, before):
+            record = await self.segmentation(identifier)
+            if record is not None:
+                yield record
 
-    async def document(self, identifier: str) -> bytes | None:
+    async def _newest(self, key: str, limit: int, before: float | None) -> list[str]:
+        highest = "+inf" if before is None else f"({before!r}"
+        return names(await self.redis.zrevrangebyscore(key, highest, "-inf", start=0, num=limit))
+
+    async def document(self, identifier: str) -> bytes | str | None:
         """The result document, JSON, as stored."""
-        return await self._together.get(keys.segmentation_key(identifier, "document"))
-
-    async def energy(self, identifier: str) -> bytes | None:
-        """The energy curve: little-endian float32."""
-        return _bytes(await self.redis.get(keys.segmentation_key(identifier, "energy")))
-
-    async def labels(self, identifier: str) -> bytes | None:
-        """The motion of every frame: little-endian uint16."""
-        return _bytes(await self.redis.get(keys.segmentation_key(identifier, "labels")))
+        return await self.redis.get(keys.segmentation_key(identifier, "document"))
 
     async def export(self, segmentation: str, form: str) -> ExportRecord | None:
         """A file made of a result, or None where none was asked for."""
@@ -93,8 +92,3 @@ class AsyncRecords:
                 if record is None or not record.live:
                     return record
         raise AssertionError("changes never end")
-
-
-def _bytes(stored: bytes | str | None) -> bytes | None:
-    """redis-py types a value `bytes | str`; without `decode_responses` it is bytes."""
-    return stored.encode() if isinstance(stored, str) else stored

@@ -12,7 +12,7 @@ from contextlib import contextmanager, suppress
 from datetime import timedelta
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, Self
+from typing import TYPE_CHECKING, BinaryIO, Literal, Self
 
 import obstore
 from obstore.exceptions import NotFoundError
@@ -26,9 +26,11 @@ if TYPE_CHECKING:  # a type alone: it is not there at run time
 
 Kind = Literal["uploads", "analyses", "viewer", "exports"]
 
-CHUNK_BYTES = 1 << 20
-PIECE_BYTES = 8 << 20
-"""Asked of a remote store at once: it must arrive within one request's time (AWS_TIMEOUT, else 30 s)."""
+CHUNK_BYTES = 1 << 17
+"""Of a local file, read at once: a client that reads slowly holds about three of them."""
+SENT_BYTES, PIECE_BYTES = 1 << 20, 8 << 20
+"""Asked of a remote store at once, for a client and for a copy: it must arrive within one request's time (AWS_TIMEOUT,
+else 30 s)."""
 RETRIES: "RetryConfig" = {"max_retries": 5, "retry_timeout": timedelta(seconds=20)}
 """A store that is away for longer is told to whoever asks, who can wait better than a thread here."""
 
@@ -103,24 +105,22 @@ class Blobs:
             return False
 
     def stream(self, key: str, start: int = 0, end: int | None = None) -> Iterator[bytes]:
-        """Bytes [start, end) in pieces of some MB; a missing blob raises at this call, not at the first piece."""
+        """Bytes [start, end) piece by piece; a missing blob raises at this call, not at the first piece."""
         end = self.size(key) if end is None else end
         if end <= start:
             return iter(())
         if self._folder is None:
-            return self._pieces(key, start, end)
-        with _missing(key):
-            answer = obstore.get(self._store, key, options={"range": (start, end)})
-        return map(bytes, answer.stream(min_chunk_size=CHUNK_BYTES))
+            return self._pieces(key, start, end, SENT_BYTES)
+        return _read(self._existing(key).open("rb"), start, end)
 
-    def _pieces(self, key: str, start: int, end: int) -> Iterator[bytes]:
+    def _pieces(self, key: str, start: int, end: int, most: int) -> Iterator[bytes]:
         """A request for each piece: one for all of it would run out of time where the reader is slow."""
 
         def piece(first: int) -> bytes:
             with _missing(key):
-                return bytes(obstore.get_range(self._store, key, start=first, end=min(first + PIECE_BYTES, end)))
+                return bytes(obstore.get_range(self._store, key, start=first, end=min(first + most, end)))
 
-        return chain([piece(start)], map(piece, range(start + PIECE_BYTES, end, PIECE_BYTES)))
+        return chain([piece(start)], map(piece, range(start + most, end, most)))
 
     @contextmanager
     def path(self, key: str) -> Iterator[Path]:
@@ -129,7 +129,7 @@ class Blobs:
             yield self._existing(key)
             return
         with aside(self._scratch) as copy:
-            for piece in self.stream(key):
+            for piece in self._pieces(key, 0, self.size(key), PIECE_BYTES):
                 write_all(copy, piece)
             yield path_of(copy)
 
@@ -153,6 +153,13 @@ class Blobs:
         if not path.is_file():
             raise BlobMissing(key)
         return path
+
+
+def _read(file: BinaryIO, start: int, end: int) -> Iterator[bytes]:
+    with file:
+        file.seek(start)
+        for place in range(start, end, CHUNK_BYTES):
+            yield file.read(min(CHUNK_BYTES, end - place))
 
 
 @contextmanager

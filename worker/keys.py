@@ -5,6 +5,7 @@
 | caesura:secret | string | key of all ids |
 | caesura:layout | string | version of what is stored; `worker.layout` |
 | caesura:animation:ID | string | AnimationRecord, JSON |
+| caesura:takes:ID | string | TakeSummary of each take of an animation, JSON |
 | caesura:animations:OWNER | sorted set | ids of animations by time of creation |
 | caesura:used | sorted set | ids of all animations by the time of their last use |
 | caesura:segmentation:ID | string | SegmentationRecord, JSON |
@@ -52,6 +53,11 @@ API_KEYS_KEY = "caesura:keys"
 def animation_key(identifier: str) -> str:
     """One animation."""
     return f"caesura:animation:{identifier}"
+
+
+def takes_key(animation: str) -> str:
+    """The takes of one animation."""
+    return f"caesura:takes:{animation}"
 
 
 def animations_key(owner: str) -> str:

@@ -2,7 +2,7 @@
 
 from typing import Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, TypeAdapter
 
 from core.document import Segment
 from core.parameters import Parameters
@@ -38,10 +38,15 @@ class TakeSummary(_Record):
     frame_rate: float
 
 
-class AnimationRecord(_Record):
-    """An uploaded file. `created` is in seconds since 1970. Without parts, its files were kept long enough and are
+TAKES: TypeAdapter[tuple[TakeSummary, ...]] = TypeAdapter(tuple[TakeSummary, ...])
 
-    gone; the record stays for its results, and the same bytes uploaded again take its place.
+
+class AnimationRecord(_Record):
+    """An uploaded file, but for its takes, which may be thousands and lie beside it.
+
+    `created` is in seconds since 1970, `seconds` is the duration of the longest take. Without parts, its files were
+    kept long enough and are gone; the record stays for its results, and the same bytes uploaded again take its place.
+    `takes` is filled only by what an earlier version stored.
     """
 
     id: str
@@ -50,6 +55,8 @@ class AnimationRecord(_Record):
     format: str
     parts: tuple[Part, ...]
     takes: tuple[TakeSummary, ...] = ()
+    take_count: int = 0
+    seconds: float | None = None
     vertices: int | None = None
     triangles: int | None = None
     created: float

@@ -7,15 +7,16 @@ from fastapi import APIRouter, Query, Request, Response
 
 from service.access import Owner
 from service.answers import answer
-from service.backend import Behind
+from service.backend import Backend, Behind
 from service.descriptions import FILE, FILE_BODY
-from service.documents import AnimationDocument, AnimationPage
+from service.documents import AnimationDocument, AnimationPage, AnimationSummary
 from service.errors import Refusal
 from service.intake import keep
 from service.paging import Cursor, Limit, created_before, cursor_of
 from service.ranges import Stored, stored_response
 from service.uploads import received
 from worker.forgetting import forget_animation
+from worker.schema import AnimationRecord
 
 MEDIA_TYPES = {
     "glb": "model/gltf-binary",
@@ -41,21 +42,22 @@ async def upload(
             raise Refusal("unknown-field", f"There is no form field {unknown!r} here. Known: name.", parameter=unknown)
         called = name or uploaded.fields.get("name", "")
         record, new = await to_thread.run_sync(keep, backend, owner, uploaded.parts, called)
-    return answer(AnimationDocument.of(record), 201 if new else 200, {"Location": f"/v1/animations/{record.id}"})
+    document = await _document(backend, record)
+    return answer(document, 201 if new else 200, {"Location": f"/v1/animations/{record.id}"})
 
 
 @router.get("", response_model=AnimationPage)
 async def recent(backend: Behind, owner: Owner, limit: Limit = 20, cursor: Cursor = "") -> Response:
-    """Animations, newest first."""
+    """Animations, newest first, without their takes."""
     records = await backend.records.animations(owner, limit, created_before(cursor))
     more = f"/v1/animations?limit={limit}&cursor={cursor_of(records[-1].created)}" if len(records) == limit else None
-    return answer(AnimationPage(animations=tuple(map(AnimationDocument.of, records)), next=more))
+    return answer(AnimationPage(animations=tuple(map(AnimationSummary.of, records)), next=more))
 
 
 @router.get("/{identifier}", response_model=AnimationDocument)
 async def one(identifier: str, backend: Behind, owner: Owner) -> Response:
     """One animation."""
-    return answer(AnimationDocument.of(await backend.animation(identifier, owner)))
+    return answer(await _document(backend, await backend.animation(identifier, owner)))
 
 
 @router.get("/{identifier}/file", responses=FILE)
@@ -84,3 +86,7 @@ async def delete(identifier: str, backend: Behind, owner: Owner) -> Response:
     record = await backend.animation(identifier, owner)
     await to_thread.run_sync(forget_animation, backend.jobs, backend.blobs, record)
     return Response(status_code=204)
+
+
+async def _document(backend: Backend, record: AnimationRecord) -> AnimationDocument:
+    return AnimationDocument.of(record, takes=await backend.records.takes(record))

@@ -1,6 +1,5 @@
 """Segmentations: asking for one, following it, cancelling or deleting it."""
 
-import itertools
 from functools import partial
 from typing import Annotated
 
@@ -10,12 +9,13 @@ from fastapi.responses import StreamingResponse
 
 from core.parameters import Parameters
 from service.access import Owner
-from service.answers import answer, outcome, preference_applied, text_answer
+from service.answers import answer, outcome, preference_applied
 from service.backend import Behind
 from service.descriptions import EVENTS, SUBMISSION, SUBMITTED
 from service.documents import SegmentationPage, StatusDocument
 from service.events import event_id, seated, status_events
 from service.intake import keep
+from service.json_body import is_json
 from service.orders import json_order, query_order
 from service.paging import Cursor, Limit, created_before, cursor_of
 from service.preferences import wait_seconds
@@ -35,7 +35,7 @@ async def create(request: Request, backend: Behind, owner: Owner) -> Response:
 
     The same file and parameters again are the same segmentation, and no second job.
     """
-    if request.headers.get("content-type", "").partition(";")[0].strip().lower() == "application/json":
+    if is_json(request.headers):
         order = await json_order(request)
     else:
         order = query_order(request.query_params)
@@ -61,23 +61,20 @@ async def of_animation(
     limit: Limit = 20,
     cursor: Cursor = "",
 ) -> Response:
-    """The segmentations of one animation, newest first."""
+    """The segmentations of one animation, newest first, without their segments."""
     await backend.animation(animation, owner)
-    before = created_before(cursor)
-    known = await backend.records.segmentations(animation)
-    page = list(itertools.islice((r for r in known if before is None or r.created < before), limit))
+    known = backend.records.segmentations(animation, limit, created_before(cursor))
+    page = [record.with_(segments=()) async for record in known]
+    entries = tuple(StatusDocument.of(record).model_copy(update={"segments": None}) for record in page)
     address = f"/v1/segmentations?animation={animation}&limit={limit}&cursor="
     more = address + cursor_of(page[-1].created) if len(page) == limit else None
-    return answer(SegmentationPage(segmentations=tuple(map(StatusDocument.of, page)), next=more))
+    return answer(SegmentationPage(segmentations=entries, next=more))
 
 
 @router.get("/{identifier}", response_model=StatusDocument)
 async def status(identifier: str, request: Request, backend: Behind, owner: Owner) -> Response:
     """How far it is; with `Prefer: wait=N`, as soon as it is over, at most N seconds from now."""
-    known, seconds = await backend.told(identifier, owner), wait_seconds(request)
-    if known.record.status != "queued" and (seconds is None or not known.record.live):
-        return text_answer(known.text, headers=preference_applied(request))
-    record = await backend.awaited(known.record, seconds)
+    record = await backend.awaited(await backend.segmentation(identifier, owner), wait_seconds(request))
     return answer(StatusDocument.of(record, await backend.position(record)), 200, preference_applied(request))
 
 

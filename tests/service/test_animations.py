@@ -2,6 +2,7 @@
 
 import pytest
 
+from tests.glb import moving_square
 from worker.connection import connect
 from worker.records import Records
 
@@ -40,6 +41,21 @@ def test_animations_are_listed_by_pages_newest_first(service, take):
         listed += [one["id"] for one in page["animations"]]
     assert set(ids) <= set(listed)
     assert len(set(listed)) == len(listed)
+
+
+def test_a_list_has_no_takes(service):
+    """A file may have thousands, each with a long name: a list says how many, the animation's own address which."""
+    model = moving_square()
+    (one,) = model.json["animations"]
+    model.json["animations"] = [{**one, "name": f"take {number} ".ljust(100, "x")} for number in range(3000)]
+    made = service.http.post("/v1/animations", content=model.glb()).json()
+    answer = service.http.get("/v1/animations", params={"limit": 1})
+    assert len(answer.content) < 1000
+    assert answer.json()["animations"] == [{name: value for name, value in made.items() if name != "takes"}]
+    assert (made["take_count"], made["duration_seconds"]) == (3000, pytest.approx(1))
+    own = service.http.get(f"/v1/animations/{made['id']}").json()
+    assert own == made
+    assert len(own["takes"]) == 3000
 
 
 @pytest.mark.parametrize("cursor", ["!", "bmFu", "aW5m"], ids=["no base64", "nan", "inf"])

@@ -36,5 +36,19 @@ def test_a_range_that_holds_nothing_is_refused(header):
 
 
 def test_a_download_has_a_name_for_every_client():
-    """In letters that end no header and lead into no folder, for those that read nothing else; and as it is."""
-    assert attachment('été/".glb') == "attachment; filename=\"_t___.glb\"; filename*=UTF-8''%C3%A9t%C3%A9/%22.glb"
+    """In letters that end no header, for those that read nothing else; and as it is."""
+    assert attachment('été".glb') == "attachment; filename=\"_t__.glb\"; filename*=UTF-8''%C3%A9t%C3%A9%22.glb"
+
+
+@pytest.mark.parametrize(
+    ("name", "saved"),
+    [
+        ("../../.bashrc", "bashrc"),
+        ("C:\\x\\..\\take.glb", "take.glb"),
+        ("blg.\u202eexe", "blg.exe"),
+        ("a/..", "download"),
+    ],
+)
+def test_the_name_of_a_download_leads_into_no_folder_and_is_read_from_left_to_right(name, saved):
+    """Whatever an upload was called."""
+    assert attachment(name) == f"attachment; filename=\"{saved}\"; filename*=UTF-8''{saved}"

@@ -6,7 +6,7 @@ import redis
 
 from worker import keys
 from worker.connection import names
-from worker.schema import AnimationRecord
+from worker.schema import TAKES, AnimationRecord, TakeSummary
 
 
 class Animations:
@@ -19,7 +19,11 @@ class Animations:
         """The animation, or None."""
         return AnimationRecord.read(self._redis.get(keys.animation_key(identifier)))
 
-    def add(self, record: AnimationRecord) -> tuple[AnimationRecord, bool]:
+    def takes(self, record: AnimationRecord) -> tuple[TakeSummary, ...]:
+        """The takes of an animation."""
+        return record.takes or TAKES.validate_json(self._redis.get(keys.takes_key(record.id)) or b"[]")
+
+    def add(self, record: AnimationRecord, takes: tuple[TakeSummary, ...] = ()) -> tuple[AnimationRecord, bool]:
         """Keep a new animation: (the record that is kept, whether it is this one).
 
         Where it was there before, with its files, the stored record is answered; the caller then deletes its own.
@@ -33,6 +37,7 @@ class Animations:
                     return kept, False
                 pipe.multi()
                 pipe.set(key, record.model_dump_json())
+                pipe.set(keys.takes_key(record.id), TAKES.dump_json(takes))
                 pipe.zadd(keys.animations_key(record.owner), {record.id: record.created})
                 pipe.zadd(keys.USED_KEY, {record.id: record.created})
                 try:
@@ -65,7 +70,7 @@ class Animations:
             if pipe.exists(keys.segmentations_key(record.id)):
                 return False
             pipe.multi()
-            pipe.delete(keys.animation_key(record.id))
+            pipe.delete(keys.animation_key(record.id), keys.takes_key(record.id))
             pipe.zrem(keys.animations_key(record.owner), record.id)
             pipe.zrem(keys.USED_KEY, record.id)
             pipe.set(keys.DELETED_KEY, b"1")
