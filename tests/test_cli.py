@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from samples.figures import figure
 from service.commands.local_service import local_service
 
 FRAMES = 300
@@ -82,6 +83,20 @@ def test_help_answers_at_once() -> None:
     )
     run = subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True)
     assert run.stdout == "set()\n"
+
+
+def test_a_glb_loads_no_library_that_it_does_not_need(tmp_path: Path) -> None:
+    """By the default method: no trimesh, no scikit-learn, and of SciPy nothing but the algebra that Numba asks for."""
+    (tmp_path / "rigid.glb").write_bytes(figure("rigid").glb)
+    script = (
+        "import sys; from service.cli import main; main(sys.argv[1:], standalone_mode=False);"
+        "unneeded = {'trimesh', 'sklearn', 'scipy.stats', 'scipy.spatial', 'scipy.optimize', 'scipy.ndimage',"
+        " 'scipy.sparse'};"
+        "print(sorted(unneeded & set(sys.modules)))"
+    )
+    arguments = ["segment", str(tmp_path / "rigid.glb"), "--motions", "6"]
+    run = subprocess.run([sys.executable, "-c", script, *arguments], check=True, capture_output=True, text=True)
+    assert run.stdout.splitlines()[-1] == "[]"
 
 
 def test_segments_tile_the_take(document: dict[str, Any]) -> None:

@@ -5,7 +5,6 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-import trimesh
 from jaxtyping import Float, Int
 
 from core.animation import Animation
@@ -61,6 +60,8 @@ def read_shapes(
 
 
 def _shape(files: ZipFiles, name: str, data: memoryview) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "T 3"]]:
+    import trimesh  # noqa: PLC0415  half a second that no other format needs
+
     raw = bytes(member(files, name, data, lambda size: memoryview(bytearray(size))))
     try:
         options: dict[str, Any] = {"process": False, "maintain_order": True, "skip_materials": True}
