@@ -7,7 +7,6 @@ What the text asks for is done here: local maxima that are also the maximum of t
 
 import numpy as np
 from jaxtyping import Float, Int
-from scipy.ndimage import maximum_filter1d
 
 
 def local_maxima(energy: Float[np.ndarray, "frames"]) -> Int[np.ndarray, "peaks"]:
@@ -36,9 +35,10 @@ def key_frames(
         return peaks
     height = np.where(np.isnan(energy), -np.inf, energy)
     half = max(window // 2, 1)
-    highest = maximum_filter1d(height, 2 * half + 1, mode="nearest")
     chosen: list[int] = []
-    for peak in peaks[(height[peaks] == highest[peaks]) & (height[peaks] >= threshold * height.max())].tolist():
+    for peak in peaks[height[peaks] >= threshold * height.max()].tolist():
+        if height[peak] < height[max(peak - half, 0) : peak + half + 1].max():
+            continue
         if not chosen or peak - chosen[-1] > half or height[peak] != height[chosen[-1]]:
             chosen.append(peak)
     return np.array(chosen, np.int64)

@@ -11,7 +11,7 @@ from core.document import Notice, Source
 from core.energy import energy_curve, window_frames
 from core.errors import InvalidModel
 from core.keyframes import local_maxima
-from core.methods import METHODS
+from core.methods import find_method
 from core.parameters import ALGORITHM, Parameters
 from core.peak_strain import peak_strain
 from core.progress import Progress, ignore
@@ -92,7 +92,7 @@ def segment(
 
 def cut(analysis: Analysis, parameters: Parameters) -> Segmentation:
     """The segments of an analysed take, by the method the parameters name. No vertices are touched."""
-    found = METHODS[parameters.method](analysis, parameters)
+    found = find_method(parameters.method)(analysis, parameters)
     labels = in_order_of_appearance(found.labels)
     changes = np.count_nonzero(np.diff(labels))
     return Segmentation(

@@ -1,6 +1,7 @@
 """The descriptors by name: each measures every column of a surface, triangle by triangle, on a block of frames.
 
-Whatever is chosen, the rest of the method is the same: codes, percentile, joint histogram, energy, key-frames.
+Whatever is chosen, the rest of the method is the same: codes, percentile, joint histogram, energy, key-frames. All but
+the default are imported when asked for: they bring sparse matrices.
 """
 
 from collections.abc import Callable, Iterator
@@ -12,9 +13,6 @@ import numpy as np
 from jaxtyping import Float32
 
 from core.animation import Animation
-from core.descriptors.curvature import Curvature
-from core.descriptors.geodesic import Geodesic
-from core.descriptors.heat_kernel import HeatKernel
 from core.descriptors.strain import TriangleStrain
 from core.mesh.mesh import Mesh
 from core.mesh.welding import weld
@@ -54,9 +52,27 @@ class Subject:
         return Mesh.of(self.rest, triangles, weld(self.animation, self.rest), self.parameters.scale_invariant)
 
 
+def _geodesic(subject: Subject) -> Surface:
+    from core.descriptors.geodesic import Geodesic  # noqa: PLC0415
+
+    return Geodesic.of(subject.mesh)
+
+
+def _heat_kernel(subject: Subject) -> Surface:
+    from core.descriptors.heat_kernel import HeatKernel  # noqa: PLC0415
+
+    return HeatKernel.of(subject.mesh)
+
+
+def _curvature(subject: Subject) -> Surface:
+    from core.descriptors.curvature import Curvature  # noqa: PLC0415
+
+    return Curvature.of(subject.mesh, subject.parameters.curvature)
+
+
 SURFACES: dict[str, Callable[[Subject], Surface]] = {
     "strain": lambda subject: subject.strain,
-    "geodesic": lambda subject: Geodesic.of(subject.mesh),
-    "heat-kernel": lambda subject: HeatKernel.of(subject.mesh),
-    "curvature": lambda subject: Curvature.of(subject.mesh, subject.parameters.curvature),
+    "geodesic": _geodesic,
+    "heat-kernel": _heat_kernel,
+    "curvature": _curvature,
 }

@@ -7,6 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
+import trimesh  # noqa: F401  here once, and not in every job that reads shapes
 from threadpoolctl import threadpool_limits
 
 from core.analysis import Analysis
@@ -18,7 +19,7 @@ from core.formats.gltf.meshopt.view import MODES, decode
 from core.formats.gltf.writer import Channel, GlbWriter, Primitive
 from core.formats.read import read_animation
 from core.limits import Limits
-from core.methods import METHODS
+from core.methods import METHODS, find_method
 from core.parameters import Parameters
 from core.pipeline import analyse, cut
 
@@ -38,6 +39,8 @@ def warm() -> None:
         with suppress(InvalidModel):  # what is in it does not matter: its loops are compiled to find that out
             decode(Entry({"mode": mode, "count": 3, "byteStride": 4}, ""), memoryview(bytes(40)))
     encoded(np.zeros((1, 4), np.uint8))
+    for method in METHODS:
+        find_method(method)  # before the limit, which holds for what is loaded
     animation = sheet()
     parameters = Parameters(motions=2)
     with threadpool_limits(1):

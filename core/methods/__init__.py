@@ -1,22 +1,21 @@
-"""The methods, by name: each cuts a take by what was computed once from its vertices."""
+"""The methods, by name: each cuts a take by what was computed once from its vertices.
+
+The module of a method has its name, and so has the function in it. It is imported at its first use: most methods need
+scikit-learn, which takes a second to load, and the default does not.
+"""
 
 from collections.abc import Callable
+from importlib import import_module
 
 from core.analysis import Analysis
-from core.methods.aca import aca
-from core.methods.haca import haca
-from core.methods.joint_entropy import joint_entropy
-from core.methods.luo2014 import luo2014
-from core.methods.spectral import spectral
-from core.methods.switching import switching
 from core.parameters import Parameters
 from core.segmentation import Cut
 
-METHODS: dict[str, Callable[[Analysis, Parameters], Cut]] = {
-    "switching": switching,
-    "joint-entropy": joint_entropy,
-    "luo2014": luo2014,
-    "spectral": spectral,
-    "aca": aca,
-    "haca": haca,
-}
+METHODS = ("switching", "joint-entropy", "luo2014", "spectral", "aca", "haca")
+
+
+def find_method(name: str) -> Callable[[Analysis, Parameters], Cut]:
+    """The function of one of `METHODS`."""
+    name = name.replace("-", "_")
+    found: Callable[[Analysis, Parameters], Cut] = getattr(import_module(f"core.methods.{name}"), name)
+    return found

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from core.control_characters import escape_control_characters
 from core.document import SegmentationDocument
 from core.errors import CaesuraError
 from service.commands.problems import exit_code
@@ -57,9 +58,12 @@ class Batch:
 
     def table(self) -> str:
         """One line a file, then how many of them are done."""
-        names = max(len("file"), *(len(str(outcome.path)) for outcome in self.outcomes))
+        paths = [escape_control_characters(str(outcome.path)) for outcome in self.outcomes]
+        names = max(map(len, ["file", *paths]))
         lines = [f"{'file':<{names}}  {'frames':>8}  {'seconds':>8}  motions  segments  least sure cut"]
-        lines += [f"{outcome.path!s:<{names}}  {_cells(outcome)}".rstrip() for outcome in self.outcomes]
+        lines += [
+            f"{path:<{names}}  {_cells(outcome)}".rstrip() for path, outcome in zip(paths, self.outcomes, strict=True)
+        ]
         done = sum(outcome.found is not None and outcome.problem is None for outcome in self.outcomes)
         return "\n".join([*lines, "", f"{done} of {len(self.outcomes)} done"])
 

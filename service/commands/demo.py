@@ -7,6 +7,7 @@ from itertools import zip_longest
 
 import click
 
+from core.control_characters import escape_control_characters
 from core.document import Segment, SegmentationDocument
 from service.commands.labelling import Labelling, agreement
 from service.commands.problems import Command
@@ -77,4 +78,4 @@ def _found(segment: Segment) -> str:
 
 
 def _span(start: int, end: int, label: str) -> str:
-    return f"{start:>5} … {end:>5}  {label}"
+    return f"{start:>5} … {end:>5}  {escape_control_characters(label)}"

@@ -85,9 +85,15 @@ class Outputs:
 
     @classmethod
     def of(
-        cls, arguments: Mapping[str, Any], options: ClipOptions, animations: Sequence[Path], folder: Path | None
+        cls,
+        arguments: Mapping[str, Any],
+        options: ClipOptions,
+        animations: Sequence[Path],
+        companions: Sequence[Path],
+        folder: Path | None,
     ) -> "Outputs":
         """Out of a command's keyword arguments; raises `UsageError` where files would be lost or are not named."""
+        sources = [*animations, *companions]
         forms: dict[str, Path | None] = {}
         for form in FORMS:
             given = arguments[f"write_{form}"]
@@ -102,7 +108,7 @@ class Outputs:
                 raise click.UsageError(
                     f"With --out, {flag} takes no name. Put it after the files, or before an option."
                 )
-            forms[form] = None if given == UNNAMED else _place(flag, Path(given), animations, forms.values())
+            forms[form] = None if given == UNNAMED else _place(flag, Path(given), sources, forms.values())
         if options.model_fields_set and "clips" not in forms:
             flag = f"--{min(options.model_fields_set).replace('_', '-')}"
             raise click.UsageError(f"{flag} says how clips are made: it needs --clips beside it.")
@@ -140,7 +146,10 @@ def _place(flag: str, path: Path, sources: Sequence[Path], taken: Iterable[Path 
         raise click.UsageError(f"'{path}' is a folder: {flag} needs the name of a file.")
     if any(other is not None and other.resolve() == path.resolve() for other in taken):
         raise click.UsageError(f"'{path}' is named twice: {flag} needs a file of its own.")
-    if path.is_file() and not any(map(path.samefile, sources)) and _is_an_animation(path):
+    is_read = path.is_file() and any(map(path.samefile, sources))
+    if is_read and (flag != "--clips" or path.suffix.lower() == ".bin"):
+        raise click.UsageError(f"'{path}' is one of the files to read, and {flag} would write over it: name another.")
+    if path.is_file() and not is_read and _is_an_animation(path):
         raise click.UsageError(
             f"'{path}' is an animation, and {flag} would write over it. Put the files before the options, or name"
             " another file."

@@ -6,6 +6,7 @@ from typing import Any
 
 import click
 
+from core.control_characters import escape_control_characters
 from core.errors import KINDS, CaesuraError, InputError
 
 USAGE = 2
@@ -32,7 +33,8 @@ def show(problem: Mapping[str, Any], *, as_json: bool, file: str | None = None) 
     if as_json:
         click.echo(json.dumps({**problem, "file": file} if file else problem), err=True)
     else:
-        click.echo(f"caesura: {file + ': ' if file else ''}{problem['detail']} [{problem['code']}]", err=True)
+        line = f"caesura: {file + ': ' if file else ''}{problem['detail']} [{problem['code']}]"
+        click.echo(escape_control_characters(line), err=True)
     return exit_code(problem)
 
 
@@ -46,7 +48,7 @@ class Command(click.Command):
             return super().make_context(info_name, args, *rest, **extra)
         except click.UsageError as refused:
             if not as_json:
-                raise
+                raise click.UsageError(escape_control_characters(refused.format_message()), refused.ctx) from None
             problem = {"kind": "usage", "code": "usage", "detail": refused.format_message()}
             raise click.exceptions.Exit(show(problem, as_json=True)) from None
 
@@ -57,7 +59,7 @@ class Command(click.Command):
             return super().invoke(ctx)
         except click.UsageError as refused:
             if not as_json:
-                raise
+                raise click.UsageError(escape_control_characters(refused.format_message()), refused.ctx) from None
             ctx.exit(show({"kind": "usage", "code": "usage", "detail": refused.format_message()}, as_json=True))
         except CaesuraError as refused:
             ctx.exit(show(refused.problem(), as_json=as_json))

@@ -51,7 +51,7 @@ def segment(
     paths = list(dict.fromkeys(path for found in files for path in found))
     companions = [path for path in paths if path.suffix.lower() == ".bin"]
     animations = [path for path in paths if path not in companions] or companions
-    written = Outputs.of(given, chosen, animations, out)
+    written = Outputs.of(given, chosen, animations, companions, out)
     batch = Batch()
     for path, target in zip(animations, _targets(animations, out), strict=True):
         with batch.file(path) as outcome:

@@ -118,6 +118,28 @@ def test_lines_for_machines_are_json_and_lines_for_people_are_short():
     assert "twice" in json.loads(line)["traceback"]
 
 
+def test_no_value_forges_a_line_for_people():
+    """Neither a value, nor a message, nor an exception's text starts a line, ends a value or reaches the terminal."""
+    forged = "/a\n2026-01-01 INFO service.requests: request\x1b[2J status=200"
+    record = logging.LogRecord("here", logging.INFO, "file", 1, "asked for %s", (forged,), None)
+    record.told = {"path": forged, "empty": ""}
+    record.exc_info = (ValueError, ValueError(forged), None)
+    first, *rest = logs.TextLines("%(levelname)s %(message)s").format(record).split("\n")
+    assert first == f"INFO asked for /a path={forged!r} empty="
+    assert len(rest) == 3
+    assert all(line.startswith("    ") for line in rest)
+    assert not any("\x1b" in line for line in rest)
+
+
+def test_a_path_forges_no_line(checkout, idle, tmp_path, capfd):
+    """A newline and an escape character that are sent within a path are shown as what they are."""
+    with serve(checkout, tmp_path, idle.redis_url, workers=False) as other:
+        other.http.get("/nothing%0A2026-01-01%20INFO%20forged%1B%5B2J")
+    lines = capfd.readouterr().err.splitlines()
+    assert any("path='/nothing\\n2026-01-01 INFO forged\\x1b[2J' status=404" in line for line in lines)
+    assert not any(line.startswith("2026-01-01") or "\x1b" in line for line in lines)
+
+
 def test_no_secret_is_logged(checkout, idle, tmp_path, capfd):
     """Neither a key, right or wrong, nor a cookie, a query or a body."""
     settings = {"access": "keys", "log_format": "json"}

@@ -85,6 +85,8 @@ def _rotations(
     head: Head, values: Float[np.ndarray, "frames columns"], ends: Int[np.ndarray, "joints"]
 ) -> dict[int, Float[np.ndarray, "frames 4"]]:
     """The rotations of every joint that has any: many joints at once where there are few frames, else a few."""
+    from scipy.spatial.transform import Rotation  # noqa: PLC0415  a tenth of a second that no other format needs
+
     columns = [
         [end - len(joint.channels) + place for place, name in enumerate(joint.channels) if name.endswith("rotation")]
         for joint, end in zip(head.joints, ends.tolist(), strict=True)
@@ -99,23 +101,8 @@ def _rotations(
     for order, nodes in by_order.items():
         for first in range(0, len(nodes), at_once):
             some = nodes[first : first + at_once]
-            turned = _turned(values[:, np.array([columns[node] for node in some])], order)
+            degrees = values[:, np.array([columns[node] for node in some])]
+            # About the axes in the order of the channels, each as the ones before have turned it.
+            turned = Rotation.from_euler(order, degrees, degrees=True).as_quat().astype(np.float32)
             found |= {node: np.ascontiguousarray(turned[:, place]) for place, node in enumerate(some)}
     return found
-
-
-def _turned(degrees: Float[np.ndarray, "frames joints axes"], order: str) -> Float[np.ndarray, "frames joints 4"]:
-    """Quaternions of rotations about the axes in the order of the channels, the last one first on a point."""
-    x, y, z, w = *np.zeros((3, *degrees.shape[:2])), np.ones(degrees.shape[:2])
-    for column, named in enumerate(order):
-        half = np.radians(degrees[:, :, column]) / 2
-        sine = np.sin(half)
-        a, b, c = (sine * (named == axis) for axis in AXES)
-        d = np.cos(half)
-        x, y, z, w = (
-            w * a + x * d + y * c - z * b,
-            w * b - x * c + y * d + z * a,
-            w * c + x * b - y * a + z * d,
-            w * d - x * a - y * b - z * c,
-        )
-    return np.stack([x, y, z, w], axis=2).astype(np.float32)

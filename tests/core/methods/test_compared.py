@@ -7,7 +7,7 @@ from core.agreement import frame_accuracy
 from core.analysis import Analysis, Features
 from core.document import Source
 from core.errors import ParameterError
-from core.methods import METHODS
+from core.methods import find_method
 from core.parameters import TOLD_MOTIONS, Parameters
 
 RATE = 30.0
@@ -45,7 +45,7 @@ def analysis_of(values, rate=RATE):
 
 
 def cut(name, values, motions, rate=RATE, seed=0):
-    return METHODS[name](analysis_of(values, rate), Parameters(method=name, motions=motions, seed=seed))
+    return find_method(name)(analysis_of(values, rate), Parameters(method=name, motions=motions, seed=seed))
 
 
 @pytest.mark.parametrize(("name", "least"), [("aca", 0.99), ("haca", 0.95), ("luo2014", 0.99), ("spectral", 0.99)])
@@ -121,4 +121,4 @@ def test_where_nothing_deforms_there_is_one_segment(name):
     """However many were asked for."""
     values, _ = performance((0, 1), 2.0)
     still = analysis_of(np.zeros_like(values))
-    assert set(METHODS[name](still, Parameters(method=name, motions=3)).labels.tolist()) == {0}
+    assert set(find_method(name)(still, Parameters(method=name, motions=3)).labels.tolist()) == {0}
