@@ -58,29 +58,28 @@ class Curve:
     def energy(self) -> Float[np.ndarray, "frames"]:
         """The curve."""
         take = self.surveyed()
-        exceedances = take.exceedances(self.scale(take), LEVELS)
-        columns = take.surveyor.body.surface.columns
-        return energy_curve(exceedances, self.animation.frames, self.window, columns, take.threads)
+        bins = take.bins(self.scale(take), LEVELS)
+        return energy_curve(bins, self.animation.frames, self.window, LEVELS, take.threads)
 
     def stages(self) -> dict[str, Callable[[], object]]:
         """Each step of a whole analysis's passes by itself, over the whole take, on one thread."""
         take, body = self.surveyed(), self.whole
         blocks = blocks_of(self.animation.frames, frames_per_block(self.animation.vertex_count))
         scale, surface = self.scale(take), body.surface
-        exceedances = list(take.exceedances(scale, LEVELS))
+        bins = list(take.bins(scale, LEVELS))
         drawn = [self.animation.vertices(*block) for block in blocks]
         histogram, noise, floor = np.zeros(CODES, np.int64), take.surveyor.noise, take.surveyor.floor
         columns, tile = max(((c, t.copy()) for c, t in surface.tiles(drawn[0])), key=lambda pair: pair[1].size)
-        codes, means = np.empty((tile.shape[1], take.surveyor.row), np.uint16), body.patches.empty(len(drawn[0]))
+        codes, means = np.empty((tile.shape[1], surface.columns), np.uint16), body.patches.empty(len(drawn[0]))
         times = range(self.animation.frames * surface.columns // tile.size)
 
         def code_and_count() -> None:
             for _ in times:
-                take.surveyor.coding.read(tile, noise[columns], floor, histogram)
-                take.surveyor.coding.turn(tile, codes, columns.start)
+                take.surveyor.coding.count(tile, noise[columns], floor, histogram)
+                take.surveyor.coding.write(tile, codes, columns.start)
 
-        def exceed() -> None:
-            for _ in take.exceedances(scale, LEVELS):
+        def look_up_bins() -> None:
+            for _ in take.bins(scale, LEVELS):
                 pass
 
         def means_on_patches() -> None:
@@ -91,10 +90,8 @@ class Curve:
             "check that every coordinate is a number": lambda: [draw(self.animation, block) for block in blocks],
             "gather vertices, strain": lambda: [0 for vertices in drawn for _ in surface.tiles(vertices)],
             "code, count codes": code_and_count,
-            "exceedances": exceed,
-            "joint counts, entropy": lambda: energy_curve(
-                exceedances, self.animation.frames, self.window, surface.columns
-            ),
+            "bins": look_up_bins,
+            "joint counts, entropy": lambda: energy_curve(bins, self.animation.frames, self.window, LEVELS),
             "means on patches": means_on_patches,
             "pair distances": lambda: [body.pairs.measure(vertices) for vertices in drawn],
         }

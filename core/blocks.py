@@ -39,14 +39,14 @@ def frames_per_block(vertex_count: int) -> int:
     return int(min(few, many, MOST_FRAMES))
 
 
-def threads_at_once(threads: int, vertex_count: int, columns: int = 0, levels: int = 1) -> int:
+def threads_at_once(threads: int, vertex_count: int, columns: int = 0) -> int:
     """As many of the threads as may hold a block each within `BLOCKS_BYTES`; where meshes are large, fewer.
 
-    A block is its float32 vertices and, of every column, a code of two bytes and a bit for every edge between levels,
-    twice, for it waits for the block that comes a window later.
+    A block is its float32 vertices and, of every column, a code of two bytes and a bin of one, twice, for it waits for
+    the block that comes a window later.
     It is the threads that are fewer and not the frames of a block, on which bits of a result might depend.
     """
-    block = frames_per_block(vertex_count) * (12 * vertex_count + 2 * columns + (levels - 1) * columns // 4)
+    block = frames_per_block(vertex_count) * (12 * vertex_count + 4 * columns)
     return max(min(threads, BLOCKS_BYTES // max(block, 1)), 1)
 
 

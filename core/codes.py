@@ -8,10 +8,9 @@ where the data are.
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float32, Int, UInt16
+from jaxtyping import Float32, Int, UInt8, UInt16
 
 from core import kernels
-from core.encoding.kernels import encode
 from core.kernels import SHIFT
 
 LOWEST = int(np.float32(2.0**-12).view(np.int32)) >> SHIFT
@@ -36,7 +35,7 @@ class Coding:
         """The codes of values ≥ 0; larger values never have smaller codes."""
         return np.asarray(np.clip((values.view(np.int32) >> SHIFT) - self.lowest, 0, CODES - 1), np.uint16)
 
-    def read(
+    def count(
         self,
         values: Float32[np.ndarray, "columns frames"],
         noise: Float32[np.ndarray, "columns"],
@@ -47,18 +46,15 @@ class Coding:
 
         Returns the largest value, and how many are above their column's noise.
         """
-        bits = values.view(np.int32)
-        tops, above = bits.max(axis=1, initial=0), np.zeros(values.shape[1], np.int32)
-        kernels.count_above(bits, noise.view(np.int32), above)
-        kernels.count_codes(bits, tops, values.shape[1], self.lowest, np.int32(floor), histogram)
-        return float(tops.max(initial=0).view(np.float32)), int(above.sum())
+        bits = np.ascontiguousarray(values).view(np.int32)
+        largest, above = kernels.count_codes(bits, noise.view(np.int32), self.lowest, np.int32(floor), histogram)
+        return float(np.int32(largest).view(np.float32)), int(above)
 
-    def turn(
+    def write(
         self, values: Float32[np.ndarray, "columns frames"], codes: UInt16[np.ndarray, "frames _"], at: int
     ) -> None:
         """Write the codes of values ≥ 0 as columns `at` and on of `codes`."""
-        in_rows = np.ascontiguousarray(values)
-        encode(in_rows.view(np.int32), values.shape[1], self.lowest, codes, at)
+        kernels.write_codes(np.ascontiguousarray(values).view(np.int32), self.lowest, codes, at)
 
     @property
     def lowest(self) -> np.int32:
@@ -79,6 +75,10 @@ class Coding:
         bits = np.asarray(above, np.float32).view(np.int32).astype(np.int64)
         nearest = (bits + 2 ** (SHIFT - 1)) // 2**SHIFT - LOWEST
         return np.asarray(np.clip(nearest - 1, 0, CODES - 2), np.uint16)
+
+    def bins(self, scale: float, bins: int) -> UInt8[np.ndarray, "codes"]:
+        """The bin of each code, 0 to B − 1: how many `edges` it is above."""
+        return np.searchsorted(self.edges(scale, bins), np.arange(CODES)).astype(np.uint8)
 
     def tells_percentile(self, histogram: Int[np.ndarray, "codes"], percent: float = PERCENTILE) -> bool:
         """Whether the percentile is above code 0, which may stand for all codes below a floor."""

@@ -11,13 +11,10 @@ from core.descriptors.kernels import REACH, largest_bits
 from core.errors import InvalidModel
 
 
-def draw(animation: Animation, block: Block, checked: bool = False) -> Float32[np.ndarray, "frames V 3"]:
-    """Frames [start, stop). Raises `InvalidModel` with frame and vertex of a NaN, an infinity or what is above 1e15.
-
-    Nothing is looked at where it is `checked` elsewhere: when it was drawn before, or by what reads it next.
-    """
+def draw(animation: Animation, block: Block) -> Float32[np.ndarray, "frames V 3"]:
+    """Frames [start, stop). Raises `InvalidModel` with frame and vertex of a NaN, an infinity or what is above 1e15."""
     vertices = np.ascontiguousarray(animation.vertices(*block), dtype=np.float32)
-    if not checked and not largest_coordinate(vertices) <= REACH:  # NaN is not either
+    if not largest_coordinate(vertices) <= REACH:  # NaN is not either
         _refuse(vertices, range(*block))
     return vertices
 

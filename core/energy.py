@@ -7,7 +7,7 @@ import numpy as np
 from jaxtyping import Float
 
 from core.blocks import map_blocks
-from core.entropy import Exceedances, Pairing, joint_entropy, pairings, sliding_sums
+from core.entropy import Bins, Pairing, joint_entropy, pairings, sliding_sums
 
 
 def window_frames(energy: Literal["modified", "joint"], window_seconds: float, frame_rate: float) -> int:
@@ -16,17 +16,17 @@ def window_frames(energy: Literal["modified", "joint"], window_seconds: float, f
 
 
 def energy_curve(
-    exceedances: Iterable[Exceedances], frames: int, length: int, columns: int, threads: int = 1
+    bins: Iterable[Bins], frames: int, length: int, levels: int, threads: int = 1
 ) -> Float[np.ndarray, "frames"]:
     """H of the windows m−l+1 … m and m+1 … m+l (Eq. 3) at every frame m, in nats.
 
-    `exceedances` tell, in blocks of frames, which of so many `columns` exceed which edge between bins. Defined for
-    l−1 ≤ m ≤ frames−l−1; NaN elsewhere. O(frames · columns) whatever l is.
+    `bins`, of so many `levels`, come in blocks of frames. Defined for l−1 ≤ m ≤ frames−l−1; NaN elsewhere.
+    O(frames · columns) whatever l is.
     """
     energy = np.full(frames, np.nan)
     if frames < 2 * length:
         return energy
-    counted = map_blocks(Pairing.counts, pairings(exceedances, length, columns), threads)
+    counted = map_blocks(Pairing.counts, pairings(bins, length, levels), threads)
     m = length - 1
     for sums in sliding_sums(counted, length):
         energy[m : m + len(sums)] = joint_entropy(sums)

@@ -10,33 +10,32 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float, Int, Int32, UInt64
+from jaxtyping import Float, Int, Int32, UInt8
 
 from core import kernels
-from core.exceedance.kernels import count_pairs
 
-Exceedances = UInt64[np.ndarray, "_ edges words"]
-"""Which triangles exceed which edge between bins in the frames of a block, a bit each."""
+Bins = UInt8[np.ndarray, "_ columns"]
+"""The bin of each triangle's strain in the frames of a block."""
 
 
 @dataclass(frozen=True)
 class Pairing:
-    """The exceedances of some frames, and those of the frames l later, in the pieces at hand; of so many columns."""
+    """The bins of some frames, and those of the frames l later, in the pieces at hand; of so many levels."""
 
-    pieces: tuple[tuple[np.ndarray, np.ndarray], ...]
-    columns: int
+    pieces: tuple[tuple[Bins, Bins], ...]
+    levels: int
 
     def counts(self) -> Int32[np.ndarray, "pairs levels2"]:
         """C_n of every pair in turn, each row a matrix of levels x levels (Eq. 1, times the number of triangles)."""
         counted = []
         for frames, later in self.pieces:
-            counts = np.empty((len(frames), (frames.shape[1] + 1) ** 2), np.int32)
-            count_pairs(frames, later, self.columns, counts)
+            counts = np.empty((len(frames), self.levels**2), np.int32)
+            kernels.count_pairs(frames, later, self.levels, counts)
             counted.append(counts)
         return np.concatenate(counted)
 
 
-def pairings(blocks: Iterable[Exceedances], lag: int, columns: int) -> Iterator[Pairing]:
+def pairings(blocks: Iterable[Bins], lag: int, levels: int) -> Iterator[Pairing]:
     """Join every frame with the one `lag` frames later, as the blocks come; holds the last `lag` frames."""
     held: deque[np.ndarray] = deque()
     behind = 0  # frames that were read and have not met their partner
@@ -53,7 +52,7 @@ def pairings(blocks: Iterable[Exceedances], lag: int, columns: int) -> Iterator[
             if width < len(first):
                 held.appendleft(first[width:])
         if pieces:
-            yield Pairing(tuple(pieces), columns)
+            yield Pairing(tuple(pieces), levels)
 
 
 def sliding_sums(counts: Iterable[Int[np.ndarray, "_ levels2"]], length: int) -> Iterator[Int[np.ndarray, "_ levels2"]]:

@@ -52,8 +52,8 @@ def analyse(
             take = survey(animation, body, parameters, threads=threads, progress=progress, memory_bytes=memory_bytes)
         scale = take.scale(parameters.normalize)
         length = window_frames(parameters.energy, parameters.window_seconds, animation.frame_rate)
-        exceedances = take.exceedances(scale, parameters.bins, progress)
-        energy = energy_curve(exceedances, animation.frames, length, body.surface.columns, take.threads)
+        bins = take.bins(scale, parameters.bins, progress)
+        energy = energy_curve(bins, animation.frames, length, parameters.bins, take.threads)
         peaks = local_maxima(energy)
         has_mesh = body.patches.patches > 0
         return Analysis(

@@ -4,21 +4,20 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Int, UInt64
+from jaxtyping import Int, UInt8
 
 from core.animation import Animation
 from core.basis import basis
 from core.blocks import Block, blocks_of, frames_per_block, map_blocks, threads_at_once
 from core.body import Body
-from core.buffers import Buffers
 from core.codes import Coding, normaliser
 from core.descriptors.strain import ROUNDING
-from core.exceedance.kernels import WORD, exceed
 from core.glance import Glance
 from core.histograms import Histograms
+from core.kernels import look_up
 from core.parameters import Parameters
 from core.progress import Progress, ignore
-from core.surveyor import Page, Surveyor, row_of
+from core.surveyor import Page, Surveyor
 
 STILL_SHARE = 1e-6
 """A body does not strain where no more than this share of its strains, over all frames, rises above rounding."""
@@ -60,25 +59,23 @@ class Survey:
         share = self.share_above_noise if self.strains else 0.0
         return normaliser(rule, self.surveyor.coding, self.histogram, self.largest, share)
 
-    def exceedances(
+    def bins(
         self, scale: float, levels: int, progress: Progress = ignore
-    ) -> Iterator[UInt64[np.ndarray, "_ edges words"]]:
-        """Which strains exceed 1/B, …, (B − 1)/B of `scale`, in blocks of frames, a bit each.
+    ) -> Iterator[UInt8[np.ndarray, "frames columns"]]:
+        """The bin of every strain where so many of them part `scale`, in blocks of frames.
 
-        So the bin of a strain, φ1 = [0, 1/B], φi = ((i−1)/B, i/B], is how many it exceeds. From the codes where they
-        were kept, else from the vertices, drawn once more.
+        φ1 = [0, 1/B], φi = ((i−1)/B, i/B]; what is above `scale` is in the last. From the codes where they were
+        kept, else from the vertices, drawn once more.
         """
-        edges, buffers = self.surveyor.coding.edges(scale, levels), Buffers()
+        bin_of_code = self.surveyor.coding.bins(scale, levels)
 
-        def exceeding(block: Block) -> np.ndarray:
-            codes = self.surveyor.codes(block, buffers)
-            words = buffers.empty((len(codes), len(edges), codes.shape[1] // WORD), np.uint64)
-            exceed(codes, edges, words)
-            return words
+        def bins(block: Block) -> np.ndarray:
+            codes = self.surveyor.codes(block)
+            found = np.empty(codes.shape, np.uint8)
+            look_up(codes, bin_of_code, found)
+            return found
 
-        return map_blocks(
-            exceeding, self.blocks, self.threads, progress=progress, stage="energy", total=len(self.blocks)
-        )
+        return map_blocks(bins, self.blocks, self.threads, progress=progress, stage="energy", total=len(self.blocks))
 
 
 def survey(
@@ -104,11 +101,11 @@ def survey(
         int(coding.encode(np.full(1, glance.common, np.float32))[0]),
         body.surface.noise(glance.reach),
         basis(animation, body, threads, progress),
-        np.empty(min(animation.frames * row_of(body.surface.columns), memory_bytes // 2), np.uint16),
+        np.empty(min(animation.frames * body.surface.columns, memory_bytes // 2), np.uint16),
         Histograms(),
     )
     blocks = blocks_of(animation.frames, frames_per_block(animation.vertex_count))
-    together = threads_at_once(threads, animation.vertex_count, body.surface.columns, parameters.bins)
+    together = threads_at_once(threads, animation.vertex_count, body.surface.columns)
     while True:
         pages = map_blocks(surveyor.measure, blocks, together, progress=progress, stage="strain", total=len(blocks))
         take = _bound(surveyor, blocks, together, pages)

@@ -14,7 +14,6 @@ from core.analysis import Analysis
 from core.animation import Animation, Take
 from core.errors import InvalidModel
 from core.formats.gltf.entry import Entry
-from core.formats.gltf.meshopt.encoding.kernels import encoded
 from core.formats.gltf.meshopt.view import MODES, decode
 from core.formats.gltf.writer import Channel, GlbWriter, Primitive
 from core.formats.read import read_animation
@@ -38,7 +37,6 @@ def warm() -> None:
     for mode in MODES:
         with suppress(InvalidModel):  # what is in it does not matter: its loops are compiled to find that out
             decode(Entry({"mode": mode, "count": 3, "byteStride": 4}, ""), memoryview(bytes(40)))
-    encoded(np.zeros((1, 4), np.uint8))
     for method in METHODS:
         find_method(method)  # before the limit, which holds for what is loaded
     animation = sheet()

@@ -25,6 +25,25 @@ _LN2 = np.float32(0.6931471805599453)
 _SQRT_HALF_BITS = np.int32(0x3F3504F3)
 
 
+LINE = 16
+"""Floats in a line of the cache."""
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def gather(vertices: Floats, members: Indices, rows: Floats) -> None:
+    """rows[i, axis, f] = vertices[f, members[i], axis]; as many frames at a time as fill a line of the cache."""
+    lines = vertices.shape[0] // LINE * LINE
+    for start in range(0, lines, LINE):
+        for i in range(members.size):
+            for axis in range(3):
+                for f in range(LINE):  # a constant, so that the loop is unrolled
+                    rows[i, axis, start + f] = vertices[start + f, members[i], axis]
+    for f in range(lines, vertices.shape[0]):
+        for i in range(members.size):
+            for axis in range(3):
+                rows[i, axis, f] = vertices[f, members[i], axis]
+
+
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
 def largest_bits(values: Indices) -> np.int32:
     """The largest |value|, as the integer its float32 bits spell: larger for larger, largest for inf and NaN."""
@@ -158,22 +177,14 @@ def _squared_stretches(
 
 
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
-def strain_tile(
-    rows: Floats,
-    corners: Indices,
-    shapes: Floats,
-    scale: Floats,
-    measure: int,
-    scratch: Floats,
-    tile: Floats,
-    tops: Indices,
-) -> None:
-    """tile[t, f]: strain of each triangle; `scratch`, three rows; `scale[f]` times the squared stretches.
+def strain_tile(rows: Floats, corners: Indices, shapes: Floats, scale: Floats, measure: int, tile: Floats) -> None:
+    """tile[t, f]: strain of each triangle; `scale[f]` times the squared stretches.
 
-    `rows` (vertices, 3 · WIDTH) hold the frames of x, then of y, then of z; tops[t]: the bits of the largest strain.
+    `rows` (vertices, 3 · WIDTH) hold the frames of x, then of y, then of z.
 
     Which way a value is computed depends on the value alone, so that no bit depends on how frames fall into blocks.
     """
+    scratch, tops = np.empty(3 * WIDTH, np.float32), np.empty(corners.shape[0], np.int32)
     larger, other = scratch[:Y], scratch[Y:Z]
     if measure == LOG:
         _moderate_log_strains(rows, corners, shapes, scale, scratch, tile, tops)
@@ -195,7 +206,6 @@ def strain_tile(
             for f in range(WIDTH):
                 most, least = np.sqrt(larger[f]) - np.float32(1), np.sqrt(other[f]) - np.float32(1)
                 strain[f] = max(abs(most), abs(least))
-        tops[t] = largest_bits(strain.view(np.int32))
 
 
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
@@ -211,12 +221,12 @@ def add_areas(rows: Floats, corners: Indices, twice: NDArray[np.float64]) -> Non
 
 
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
-def add_weighted(tile: Floats, weights: Floats, groups: Indices, sums: Floats, at: int, frames: int) -> None:
-    """sums[groups[t], at + f] += weights[t] tile[t, f] for so many frames, one column after another."""
+def add_weighted(tile: Floats, weights: Floats, groups: Indices, sums: Floats) -> None:
+    """sums[groups[t], f] += weights[t] tile[t, f], one column after another."""
     for t in range(tile.shape[0]):
         row, weight = sums[groups[t]], weights[t]
-        for f in range(frames):
-            row[at + f] += weight * tile[t, f]
+        for f in range(tile.shape[1]):
+            row[f] += weight * tile[t, f]
 
 
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")

@@ -12,7 +12,6 @@ from jaxtyping import Float, Int, Int32
 
 from core.descriptors import kernels
 from core.descriptors.farthest_points import spread
-from core.descriptors.gathering.kernels import gather
 
 POINTS = 150
 NEAREST = 10
@@ -47,7 +46,7 @@ class PairDistances:
         """(distance − distance at rest) / size, float32, no unit: zero for a body that only moves rigidly."""
         members, first, second = self._ends
         rows = np.empty((len(members), 3, len(block)), np.float32)
-        gather(block, members, rows)
+        kernels.gather(block, members, rows)
         changes = np.empty((len(first), len(block)), np.float32)
         kernels.pair_changes(rows, first, second, self.at_rest, np.float32(1 / (self.size or 1.0)), changes)
         return changes.T

@@ -87,7 +87,7 @@ class Folding:
 
 def _add(values: Float32[np.ndarray, "n frames"], points: Int[np.ndarray, "n"], totals: Totals) -> None:
     ones = np.ones(len(values), np.float32)
-    kernels.add_weighted(values, ones, points.astype(np.int32), totals, 0, values.shape[1])
+    kernels.add_weighted(values, ones, points.astype(np.int32), totals)
 
 
 def _dot(u: Float32[np.ndarray, "n 3 frames"], v: Float32[np.ndarray, "n 3 frames"]) -> np.ndarray:

@@ -7,7 +7,6 @@ import numpy as np
 from jaxtyping import Float, Float32, Float64, Int, Int32
 
 from core.descriptors import kernels
-from core.descriptors.gathering.kernels import gather
 from core.descriptors.strain import TILE
 
 
@@ -44,7 +43,7 @@ class Mesh:
     def rows(self, block: Float32[np.ndarray, "frames V 3"]) -> Float32[np.ndarray, "P 3 frames"]:
         """Where the points are, the frames innermost."""
         rows = np.empty((len(self.members), 3, len(block)), np.float32)
-        gather(block, self.members, rows)
+        kernels.gather(block, self.members, rows)
         if self.scale_invariant:
             twice = np.zeros(len(block), np.float64)
             kernels.add_areas(rows, self.corners, twice)

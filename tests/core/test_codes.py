@@ -65,15 +65,14 @@ def test_edges_of_bins_are_in_their_place_to_an_eight_thousandth(levels):
 
 
 @pytest.mark.parametrize("order", ["C", "F"])
-@pytest.mark.parametrize("shape", [(1, 1), (8, 8), (13, 64), (64, 5), (30, 27)])
+@pytest.mark.parametrize("shape", [(1, 1), (16, 8), (13, 64), (64, 5), (30, 27)])
 def test_codes_kept_in_rows_of_triangles_are_the_same_codes(shape, order):
-    """Wherever they begin in a row, however values lie, whether or not eights go into their number; nothing beside
-    them is touched."""
+    """Wherever they begin in a row, however values lie and how many they are; nothing beside them is touched."""
     coding, at = Coding(1.0), 3
     values = np.random.default_rng(0).gamma(1.0, 2.0, shape).astype(np.float32, order=order)
     values[0, 0] = 0
     found = np.full((shape[1], at + shape[0] + 2), 7, np.uint16)
-    coding.turn(values, found, at)
+    coding.write(values, found, at)
     np.testing.assert_array_equal(found[:, at:-2], coding.encode(values).T)
     assert (found[:, :at] == 7).all()
     assert (found[:, -2:] == 7).all()
@@ -85,7 +84,7 @@ def test_codes_from_a_floor_on_are_counted_one_by_one_and_all_below_together():
     values = np.random.default_rng(0).gamma(1.0, 2.0, (3, 50)).astype(np.float32)
     codes, found = coding.encode(values), np.zeros(CODES, np.int64)
     floor = int(np.percentile(codes, 80))
-    largest, above = coding.read(values, noise, floor, found)
+    largest, above = coding.count(values, noise, floor, found)
     expected = np.bincount(codes[codes >= floor], minlength=CODES)
     expected[0] = (codes < floor).sum()
     np.testing.assert_array_equal(found, expected)

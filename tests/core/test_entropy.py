@@ -8,16 +8,9 @@ from core.entropy import joint_entropy, pairings, sliding_sums
 from tests import oracles
 
 
-def exceedances(bins, levels):
-    """Bins (columns, frames) as bits (frames, edges, words): a value in bin i exceeds i edges."""
-    above = bins.T[:, None] > np.arange(levels - 1)[:, None]
-    room = np.pad(above, [(0, 0), (0, 0), (0, -len(bins) % 64)])
-    return np.ascontiguousarray(np.packbits(room, axis=2, bitorder="little")).view("<u8").astype(np.uint64)
-
-
-def blocks(bins, levels, sizes):
-    """(columns, frames) as bits, cut into blocks of these sizes in turn, to the end."""
-    values, start, cut = exceedances(bins, levels), 0, []
+def blocks(bins, sizes):
+    """(columns, frames) as rows of frames, cut into blocks of these sizes in turn, to the end."""
+    values, start, cut = np.ascontiguousarray(bins.T), 0, []
     while start < len(values):
         size = sizes[len(cut) % len(sizes)]
         cut.append(values[start : start + size])
@@ -32,15 +25,15 @@ def test_the_curve_is_the_double_loops(window, sizes):
     bins = np.random.default_rng(2).integers(0, 4, (9, 40)).astype(np.uint8)
     expected = oracles.energy(bins.T, 4, window)
     for threads in (1, 2):
-        found = energy_curve(blocks(bins, 4, sizes), 40, window, len(bins), threads)
+        found = energy_curve(blocks(bins, sizes), 40, window, 4, threads)
         np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-14)
 
 
 def test_the_curve_is_nan_where_the_windows_do_not_fit():
     """Defined for l − 1 ≤ m ≤ M − l − 1 alone, and nowhere when two windows are longer than the take."""
-    still = exceedances(np.zeros((3, 20), np.uint8), 2)
-    assert np.flatnonzero(~np.isnan(energy_curve([still], 20, 6, 3))).tolist() == list(range(5, 14))
-    assert np.isnan(energy_curve([still], 20, 11, 3)).all()
+    still = np.zeros((20, 3), np.uint8)
+    assert np.flatnonzero(~np.isnan(energy_curve([still], 20, 6, 2))).tolist() == list(range(5, 14))
+    assert np.isnan(energy_curve([still], 20, 11, 2)).all()
 
 
 def test_entropy_of_known_distributions():
@@ -52,7 +45,7 @@ def test_entropy_of_known_distributions():
 def test_every_frame_meets_the_one_a_lag_later_once():
     """Each pair (n, n + l) is counted for every column, in order."""
     bins = np.random.default_rng(3).integers(0, 3, (5, 50)).astype(np.uint8)
-    found = np.concatenate([p.counts() for p in pairings(blocks(bins, 3, (8,)), 11, len(bins))])
+    found = np.concatenate([p.counts() for p in pairings(blocks(bins, (8,)), 11, 3)])
     expected = np.zeros((39, 9), int)
     for n in range(39):
         np.add.at(expected[n], bins[:, n] * 3 + bins[:, n + 11], 1)

@@ -1,121 +1,126 @@
-"""The binary chunk of the file as it was, with new arrays in the room that was freed, and behind it."""
+"""The binary chunk of a cut file: the bytes that something still refers to, and new arrays behind them."""
 
-from bisect import bisect_left
-from collections.abc import Iterator
-from itertools import accumulate, chain
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator
 from typing import Any
 
-from core.formats.clips.free_space import Range, without
+from core.formats.clips.references import Range, parts, views_of_others, whole_view
+from core.formats.clips.self_contained import SelfContained, addressed
+from core.formats.gltf.document import COMPRESSED
 
 PIECE = 2**20
 
-HOLE = 64
-"""Bytes that must be unused on end to be cut out."""
-
 ALIGNED = 8
-"""What lies behind a hole moves by multiples of so many bytes, so that it stays where numbers may be."""
+"""What lies behind bytes that are gone moves by multiples of so many, so that it stays where numbers may be."""
+
+UNUSED_VIEW = {"buffer": 0, "byteLength": 1}
+"""What stands in the place of a view that is gone, so that the numbers of the others stay."""
 
 
 class BinaryChunk:
-    """`pieces` lie at their offsets, `free` is room between them. Arrays are kept until they are written."""
+    """Ranges of what was there, one behind the other, and new arrays, which are kept until they are written."""
 
-    def __init__(self, pieces: list[tuple[int, memoryview]], length: int, free: list[Range]) -> None:
-        self._old = pieces
-        self._patches: list[tuple[int, bytes]] = []
-        self._rooms = [Room(-(-start // 4) * 4, end) for start, end in free]
-        if free and length - free[-1][1] < 4:
-            self._rooms.pop()
-            length = free[-1][0]
-            self._old = [(at, data[: max(length - at, 0)]) for at, data in pieces]
-        self._patches += [(start, bytes(end - start)) for start, end in free if end <= length]
-        self._tail = Room(-(-length // 4) * 4, 2**63)
-        self._holes: list[Range] = []
-        self._gone = [0]
-        self.end = length
+    def __init__(self, pieces: list[tuple[int, memoryview]], kept: Iterable[Range]) -> None:
+        self._pieces, self._new = pieces, list[tuple[int, bytes]]()
+        self._kept = _joined((start - start % ALIGNED, end) for start, end in kept)
+        self._places: list[int] = []
+        self.length = 0
+        for start, end in self._kept:
+            self._places.append(self._take(end - start))
 
-    def put(self, data: bytes, row: int) -> tuple["Room", int]:
-        """Find room for an array of rows of so many bytes: the room, whose view it will be in, and where in it."""
-        room = next((r for r in self._rooms if r.end - r.after(data, row) >= len(data)), self._tail)
-        at = room.take(data, row)
-        self._patches.append((at, data))
-        if room is self._tail:
-            self.end = at + len(data)
-        return room, at - room.start
-
-    def patch(self, start: int, data: bytes) -> None:
-        """Put other bytes over some that are there."""
-        self._patches.append((start, data))
-
-    @property
-    def roomiest(self) -> int:
-        """Bytes of the largest room between what stays."""
-        return max((room.end - room.next for room in self._rooms), default=0)
-
-    def squeeze(self, used: list[Range]) -> None:
-        """Cut out room that is left and has none of the `used` bytes, which are in order and apart.
-
-        From then on `moved` says where bytes are.
-        """
-        for first, last in without(((room.next, room.end) for room in self._rooms), used):
-            start, end = -(-first // ALIGNED) * ALIGNED, last // ALIGNED * ALIGNED
-            if end - start >= HOLE:
-                self._holes.append((start, end))
-        self._gone = [0, *accumulate(end - start for start, end in self._holes)]
+    def append(self, data: bytes) -> int:
+        """Add bytes, and say where they are."""
+        self._new.append((self._take(len(data)), data))
+        return self._new[-1][0]
 
     def moved(self, offset: int) -> int:
         """Where a byte is that was at `offset`."""
-        return offset - self._gone[bisect_left(self._holes, (offset, 0))]
-
-    @property
-    def length(self) -> int:
-        """Bytes, without padding."""
-        return self.moved(self.end)
+        rank = bisect_right(self._kept, (offset, 2**63)) - 1
+        return self._places[rank] + offset - self._kept[rank][0]
 
     def content(self) -> Iterator[bytes]:
-        """All of it: what was there, patched, and what is new."""
+        """All of it."""
         at = 0
-        for start, data in self._layers():
-            yield bytes(self.moved(start) - at)
+        for place, data in self._layers():
+            yield bytes(place - at)
             for piece in range(0, len(data), PIECE):
                 yield bytes(data[piece : piece + PIECE])
-            at = self.moved(start) + len(data)
-        yield bytes(self.length - at)
+            at = place + len(data)
 
-    def _layers(self) -> Iterator[tuple[int, memoryview]]:
-        """Stretches in order that do not overlap: a patch hides what is under it, a later patch an earlier one."""
-        layers = [*self._old, *((start, memoryview(data)) for start, data in self._patches)]
-        edges = sorted({*(edge for start, data in layers for edge in (start, start + len(data))), *chain(*self._holes)})
-        top: dict[int, int] = {}
-        place = {edge: number for number, edge in enumerate(edges)}
-        for number, (start, data) in enumerate(layers):
-            for edge in range(place[start], place[start + len(data)]):
-                top[edge] = number
-        for start, end in self._holes:
-            for edge in range(place[start], place[end]):
-                top.pop(edge, None)
-        for edge in sorted(top):
-            start, data = layers[top[edge]]
-            yield edges[edge], data[edges[edge] - start : edges[edge + 1] - start]
+    def _take(self, size: int) -> int:
+        start = self.length + -self.length % ALIGNED
+        self.length = start + size
+        return start
+
+    def _layers(self) -> Iterator[tuple[int, memoryview | bytes]]:
+        starts = [start for start, _ in self._pieces]
+        for place, (start, end) in zip(self._places, self._kept, strict=True):
+            for at, data in self._pieces[max(bisect_right(starts, start) - 1, 0) :]:
+                if at >= end:
+                    break
+                first = max(start - at, 0)
+                yield place + at + first - start, data[first : end - at]
+        yield from self._new
 
 
-class Room:
-    """Bytes [start, end), of which those before `next` are taken."""
+def without_unused(file: SelfContained, opened: set[int]) -> BinaryChunk:
+    """Drop the views that nothing refers to, and of the views `opened` the bytes that no accessor does.
 
-    def __init__(self, start: int, end: int) -> None:
-        self.start = self.next = start
-        self.end = end
-        self.view: dict[str, Any] | None = None
-        self.number = -1
-        self._last = b""
+    Views and accessors of the JSON are moved with their bytes; none are where an extension of a view may say where
+    it lies.
+    """
+    root = file.json
+    views: list[dict[str, Any]] = root.get("bufferViews", [])
+    named = [(part, size) for accessor in root.get("accessors", []) for part, size in parts(accessor)]
+    others = views_of_others(root)
+    apart = {
+        n for n in opened - others if not {"extensions", "byteStride"} & views[n].keys() and not views[n]["buffer"]
+    }
+    inside: dict[int, list[tuple[dict[str, Any], int, int]]] = {}
+    for part, size in named:
+        if part["bufferView"] in apart:
+            begin = views[part["bufferView"]].get("byteOffset", 0) + part.get("byteOffset", 0)
+            inside.setdefault(part["bufferView"], []).append((part, begin, begin + size))
+    whole = (others | {part["bufferView"] for part, _ in named}) - apart
+    kept = [(begin, end) for found in inside.values() for _, begin, end in found]
+    kept += [place for number, view in enumerate(views) if number in whole for place in whole_view(view)]
+    if any(view.get("extensions", {}).keys() - COMPRESSED for view in views):
+        kept.append((0, file.length))
+    chunk = BinaryChunk(file.pieces, kept)
+    for number, view in enumerate(views):
+        if number in inside:
+            _shrink(view, inside[number], chunk)
+        elif number in whole:
+            for part in addressed(view):
+                if part["buffer"] == 0:
+                    _place(part, chunk.moved(part.get("byteOffset", 0)))
+        else:
+            views[number] = dict(UNUSED_VIEW)
+    return chunk
 
-    def take(self, data: bytes, row: int) -> int:
-        """Where the array goes."""
-        at = self.after(data, row)
-        self.next, self._last = at + -(-len(data) // 4) * 4, data
-        return at
 
-    def after(self, data: bytes, row: int) -> int:
-        """Where it would go: on the last row of the one before where it begins with that, as one clip does where
-        another ends."""
-        shares = not (row % 4 or len(self._last) % 4) and row < len(data) and self._last.endswith(data[:row])
-        return self.next - row if shares else self.next
+def _shrink(view: dict[str, Any], named: list[tuple[dict[str, Any], int, int]], chunk: BinaryChunk) -> None:
+    """Let a view reach from the first byte that an accessor names to the last."""
+    first = min(begin for _, begin, _ in named)
+    start = chunk.moved(first - first % ALIGNED)
+    for part, begin, _ in named:
+        _place(part, chunk.moved(begin) - start)
+    _place(view, start)
+    view["byteLength"] = chunk.moved(max(end for _, _, end in named) - 1) + 1 - start
+
+
+def _place(part: dict[str, Any], offset: int) -> None:
+    part["byteOffset"] = offset
+    if not offset:
+        del part["byteOffset"]
+
+
+def _joined(ranges: Iterable[Range]) -> list[Range]:
+    """The same bytes as few ranges, in order and apart."""
+    joined: list[Range] = []
+    for start, end in sorted(ranges):
+        if joined and start <= joined[-1][1]:
+            joined[-1] = (joined[-1][0], max(joined[-1][1], end))
+        elif end > start:
+            joined.append((start, end))
+    return joined

@@ -9,14 +9,17 @@ import numpy as np
 from jaxtyping import Float, Shaped
 
 from core.formats.clips.animation_only import without_meshes
-from core.formats.clips.free_space import freed_accessors
-from core.formats.clips.placement import UNUSED, NewAccessor, placed
+from core.formats.clips.binary_chunk import BinaryChunk, without_unused
+from core.formats.clips.references import exclusive_accessors, parts
 from core.formats.clips.self_contained import SelfContained
 from core.formats.gltf.accessors import Accessors, Layout
 from core.formats.gltf.document import Document
 from core.formats.gltf.writer import COMPONENTS
 from core.formats.read import main_part
 from core.limits import Limits
+
+UNUSED_ACCESSOR = {"componentType": 5126, "count": 1, "type": "SCALAR"}
+"""What stands in the place of an accessor that is gone, so that the numbers of the others stay."""
 
 
 class Replacement:
@@ -25,15 +28,15 @@ class Replacement:
     The file has been read before, so its limits are not asked again.
     """
 
-    def __init__(self, parts: Mapping[str, memoryview], *, animation_only: bool = False) -> None:
-        beside = dict(parts)
-        self.document = Document(beside.pop(main_part(parts)), beside, Limits.none())
+    def __init__(self, upload: Mapping[str, memoryview], *, animation_only: bool = False) -> None:
+        beside = dict(upload)
+        self.document = Document(beside.pop(main_part(upload)), beside, Limits.none())
         self.accessors = Accessors(self.document)
         self._file = SelfContained(self.document)
         self._bare = animation_only
-        self._freed: list[int] = []
-        self._slots: list[int] = []
-        self._new: list[NewAccessor] = []
+        self._free: list[int] = []
+        self._opened: set[int] = set()
+        self._new: list[tuple[dict[str, Any], bytes]] = []
         self._known: dict[tuple[Any, ...], int] = {}
         self._staying: list[int] = []
         self._added: dict[int, list[dict[str, Any]]] = {}
@@ -47,8 +50,9 @@ class Replacement:
         self._staying = [number for number in range(len(animations)) if number not in removed]
         self._file.json["animations"] = [animations[number] for number in self._staying]
         if not self._bare:
-            self._freed = freed_accessors(self._file.json, gone)
-            self._slots = self._freed[::-1]
+            self._free = exclusive_accessors(self._file.json, gone)
+            accessors = self._file.json.get("accessors", [])
+            self._opened = {part["bufferView"] for number in self._free for part, _ in parts(accessors[number])}
 
     def add(self, take: int, animations: list[dict[str, Any]]) -> None:
         """Put animations in where the animation `take` was, or after it."""
@@ -62,7 +66,7 @@ class Replacement:
         start = entry.get("byteOffset", 0) + first * layout.width * layout.dtype.itemsize
         kept: dict[str, Any] = {name: entry[name] for name in ("bufferView", "componentType", "type")}
         more = ({"normalized": True} if layout.normalized else {}) | ({"byteOffset": start} if start else {})
-        return self._accessor({**kept, **more, "count": count}, None)
+        return self._accessor({**kept, **more, "count": count}, b"")
 
     def times(self, seconds: Float[np.ndarray, "keys"]) -> int:
         """An accessor of key times, with the bounds that they must have."""
@@ -72,13 +76,15 @@ class Replacement:
         """An accessor of new numbers, elements of `width` each."""
         data = np.ascontiguousarray(values).astype(values.dtype.newbyteorder("<")).tobytes()
         accessor = {"componentType": COMPONENTS[values.dtype.name], "count": values.size // width, "type": kind}
-        return self._accessor(accessor | more, data, values[:1].nbytes)
+        return self._accessor(accessor | more, data)
 
     def pieces(self) -> Iterator[bytes]:
         """The GLB."""
         root = self._file.json
-        freed = [number for number in self._freed if number < len(root.get("accessors", []))]
-        chunk = placed(self._file, self.accessors, freed, self._new)
+        for number in self._free:
+            root["accessors"][number] = dict(UNUSED_ACCESSOR)
+        chunk = without_unused(self._file, self._opened)
+        self._append_new(chunk)
         root["animations"] = self._ordered()
         if chunk.length:
             root["buffers"][0]["byteLength"] = chunk.length
@@ -97,19 +103,30 @@ class Replacement:
             yield from filter(None, chunk.content())
             yield bytes(padding)
 
-    def _accessor(self, accessor: dict[str, Any], data: bytes | None, row: int = 0) -> int:
+    def _accessor(self, accessor: dict[str, Any], data: bytes) -> int:
         """Its number; the same numbers again are the same accessor."""
         key = (data, tuple((name, str(value)) for name, value in accessor.items()))
         if key not in self._known:
             accessors = self._file.json.setdefault("accessors", [])
-            if self._slots:
-                number = self._slots.pop()
-            else:
-                number = len(accessors)
-                accessors.append(UNUSED)
-            self._new.append(NewAccessor(number, accessor, data, row))
-            self._known[key] = number
+            if not self._free:
+                self._free.append(len(accessors))
+                accessors.append({})
+            self._known[key] = self._free.pop(0)
+            accessors[self._known[key]] = accessor
+            if data:
+                self._new.append((accessor, data))
         return self._known[key]
+
+    def _append_new(self, chunk: BinaryChunk) -> None:
+        """Put all new arrays into one view behind what was there."""
+        if not self._new:
+            return
+        views = self._file.json.setdefault("bufferViews", [])
+        places = [chunk.append(data) for _, data in self._new]
+        for (accessor, _), place in zip(self._new, places, strict=True):
+            offset = {"byteOffset": place - places[0]} if place > places[0] else {}
+            accessor.update({"bufferView": len(views)} | offset)
+        views.append({"buffer": 0, "byteOffset": places[0], "byteLength": chunk.length - places[0]})
 
     def _ordered(self) -> list[dict[str, Any]]:
         """Animations that stay and animations put in, in the order of the file's own."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from jaxtyping import Float, Int, Shaped, UInt8
+from jaxtyping import Float, Int, Shaped
 
 from core.formats.gltf.buffers import Buffers
 from core.formats.gltf.document import Document
@@ -97,11 +97,6 @@ class Accessors:
     def view(self, number: int) -> memoryview:
         """The bytes of a buffer view that is no list of elements."""
         return self._buffers.view(number)
-
-    def coded(self, number: int) -> UInt8[np.ndarray, "count stride"] | None:
-        """The elements of a compressed buffer view before any filter; None where it is not compressed, or is of
-        indices."""
-        return self._buffers.coded(number)
 
     def _layout(self, index: int) -> Layout:
         entry = self._document.accessors[index]

@@ -4,13 +4,10 @@ import base64
 import binascii
 from urllib.parse import unquote
 
-import numpy as np
-from jaxtyping import UInt8
-
 from core.errors import InvalidModel
 from core.formats.gltf.document import COMPRESSED, Document
 from core.formats.gltf.entry import Entry
-from core.formats.gltf.meshopt.view import coded, decode, decoded_size
+from core.formats.gltf.meshopt.view import decode, decoded_size
 
 
 class Buffers:
@@ -37,15 +34,6 @@ class Buffers:
             self._document.budget.spend(decoded_size(view, packed), packed.pointer)
             self._decoded[index] = decode(packed, self._piece(packed))
         return self._decoded[index]
-
-    def coded(self, index: int) -> UInt8[np.ndarray, "count stride"] | None:
-        """The elements of a compressed view before any filter; None where it is not compressed, or is of indices."""
-        view = self._document.views[index]
-        packed = view.extension(*sorted(COMPRESSED))
-        if packed is None or packed.text("mode") != "ATTRIBUTES":
-            return None
-        self._document.budget.spend(decoded_size(view, packed), packed.pointer)
-        return coded(packed, self._piece(packed))
 
     def _piece(self, view: Entry) -> memoryview:
         number = view.index("buffer", len(self._document.buffers), "buffers")

@@ -13,7 +13,6 @@ import pytest
 from core.errors import CaesuraError, InvalidModel, LimitExceeded
 from core.formats.gltf.entry import Entry
 from core.formats.gltf.meshopt.attributes.kernels import attributes
-from core.formats.gltf.meshopt.encoding.kernels import encoded
 from core.formats.gltf.meshopt.view import decode
 from core.limits import Limits
 from tests.core.formats.opening import opened
@@ -69,52 +68,6 @@ def test_broken_streams_end_in_an_error_of_ours(streams: list[dict[str, Any]]) -
                 assert wrong.code == "decompression-failed"  # noqa: PT017
             else:
                 assert size == stream["count"] * stream["stride"]
-
-
-SHAPES = [(1, 4), (15, 8), (16, 12), (17, 16), (257, 4), (300, 60), (513, 256)]
-
-READ = """
-import { MeshoptDecoder } from "meshoptimizer";
-await MeshoptDecoder.ready;
-for (const { count, stride, encoded } of JSON.parse(process.argv[2])) {
-  const decoded = new Uint8Array(count * stride);
-  MeshoptDecoder.decodeGltfBuffer(decoded, count, stride, Buffer.from(encoded, "base64"), "ATTRIBUTES", "NONE");
-  console.log(Buffer.from(decoded).toString("base64"));
-}
-"""
-
-
-def made() -> list[np.ndarray]:
-    """Elements that are all zeros, that drift, and that are noise."""
-    random = np.random.default_rng(2)
-    still = [np.zeros(shape, np.uint8) for shape in SHAPES]
-    drift = [(random.integers(0, 3, shape).cumsum(axis=0) & 255).astype(np.uint8) for shape in SHAPES]
-    return [*still, *drift, *(random.integers(0, 256, shape).astype(np.uint8) for shape in SHAPES)]
-
-
-def test_what_is_encoded_is_decoded_again() -> None:
-    """Of any shape, still or drifting or noise; still elements take hardly anything."""
-    for elements in made():
-        stream, out = encoded(elements), np.zeros_like(elements)
-        assert attributes(stream, out)
-        np.testing.assert_array_equal(out, elements)
-        if not elements.any():
-            assert len(stream) <= 300 + elements.size // 28
-
-
-def test_the_library_reads_what_is_encoded(oracle: Path, node: Path, tmp_path: Path) -> None:
-    """Byte for byte."""
-    (tmp_path / "node_modules").symlink_to(oracle.parent / "node_modules")
-    (tmp_path / "read.mjs").write_text(READ)
-    streams = [
-        {"count": len(e), "stride": e.shape[1], "encoded": base64.b64encode(encoded(e).tobytes()).decode()}
-        for e in made()
-        if e.size < 2**15
-    ]
-    command = [str(node), str(tmp_path / "read.mjs"), json.dumps(streams)]
-    run = subprocess.run(command, check=True, capture_output=True, text=True, timeout=60)
-    decoded = [base64.b64decode(line) for line in run.stdout.splitlines()]
-    assert decoded == [e.tobytes() for e in made() if e.size < 2**15]
 
 
 def literal(elements: np.ndarray) -> bytes:

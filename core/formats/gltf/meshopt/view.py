@@ -39,7 +39,7 @@ def decode(extension: Entry, data: memoryview) -> memoryview:
     count, stride = extension.whole("count"), extension.whole("byteStride")
     mode, source = extension.text("mode"), np.frombuffer(data, np.uint8)
     if mode == "ATTRIBUTES":
-        elements = coded(extension, data)
+        elements = _attributes(extension, data)
         undo, _ = FILTERS[extension.text("filter", "NONE")]
         if undo is not None and count:
             with np.errstate(all="ignore"):
@@ -51,8 +51,8 @@ def decode(extension: Entry, data: memoryview) -> memoryview:
     return corners.astype(f"<u{stride}").view(np.uint8).reshape(-1).data
 
 
-def coded(extension: Entry, data: memoryview) -> UInt8[np.ndarray, "count stride"]:
-    """Attributes as the codec has them, before any filter; raises `decompression-failed`."""
+def _attributes(extension: Entry, data: memoryview) -> UInt8[np.ndarray, "count stride"]:
+    """Attributes as the codec has them, before any filter."""
     shape = extension.whole("count"), extension.whole("byteStride")
     if shape[0] * shape[1] > MOST_TIMES * len(data):
         _broken(extension)

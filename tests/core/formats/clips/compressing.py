@@ -4,8 +4,8 @@ import base64
 
 import numpy as np
 
-from core.formats.gltf.meshopt.encoding.kernels import encoded
 from tests.core.formats.clips.making import chunks_of
+from tests.core.formats.test_meshopt import literal
 from tests.glb import Glb
 
 EXTENSION = "EXT_meshopt_compression"
@@ -61,7 +61,7 @@ def keys_of(model: Glb) -> set[int]:
 
 def _compress(packed: Glb, strip: bytearray, stride: int, offset: int) -> int:
     elements = np.frombuffer(strip, np.uint8).reshape(-1, stride)
-    number = packed.view(encoded(elements).tobytes())
+    number = packed.view(literal(elements))
     more = {"byteStride": stride, "count": len(elements), "mode": "ATTRIBUTES"}
     stream = packed.json["bufferViews"][number] | more
     view = {"buffer": 1, "byteOffset": offset, "byteLength": len(strip), "extensions": {EXTENSION: stream}}

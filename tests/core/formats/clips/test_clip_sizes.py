@@ -1,6 +1,8 @@
 """A file in clips is hardly larger than it was: what it has of the take is told once."""
 
+import io
 import json
+import zipfile
 
 import numpy as np
 import pytest
@@ -27,12 +29,12 @@ def swaying(keys: int = 61, interpolation: str = "LINEAR") -> Glb:
 
 
 @pytest.mark.parametrize(("interpolation", "parts"), [("LINEAR", 1), ("CUBICSPLINE", 3)])
-def test_a_cut_between_keys_adds_one_key(interpolation, parts):
-    """The pose that one clip ends with and the next one begins with is stored once in each channel."""
+def test_a_cut_between_keys_adds_two_keys(interpolation, parts):
+    """The pose there ends one clip and begins the next; the take's own keys are gone."""
     data = swaying(interpolation=interpolation).glb()
     glb = clips_of(data, cut_at(opened(data, fps=29), CUTS))
     before, after = len(chunks_of(data)[1]), len(chunks_of(glb)[1])
-    poses, times = parts * (16 + 12) * len(CUTS), 4 * (61 + 2 * len(CUTS)) - 2 * 4 * 61
+    poses, times = 2 * parts * (16 + 12) * len(CUTS), 4 * (61 + 2 * len(CUTS)) - 2 * 4 * 61
     assert after <= before + poses + times + 8
     assert worst_miss(opened(data, fps=29), glb, cut_at(opened(data, fps=29), CUTS)) <= CLOSE
 
@@ -83,6 +85,21 @@ def test_room_that_is_left_is_cut_out():
     assert new[places[1]["byteOffset"] :][: places[1]["byteLength"]] == b"\x89PNG not really"
     assert (places[0]["byteOffset"] - places[1]["byteOffset"]) % 8 == 0
     assert places[1]["byteOffset"] < places[0]["byteOffset"]
+
+
+@pytest.mark.parametrize("files", ["one", "separate"])
+def test_bytes_that_nothing_refers_to_are_not_copied(files):
+    """Be they in a view that nobody names, or in none."""
+    model = swaying()
+    model.view(bytes(50_000))
+    model.binary += bytes(50_000)
+    data = model.glb()
+    made = clips_of(data, cut_at(opened(data), CUTS), files=files)
+    if files == "one":
+        assert len(made) < len(data) - 90_000
+        return
+    with zipfile.ZipFile(io.BytesIO(made)) as archive:
+        assert max(member.file_size for member in archive.infolist()) < len(data) - 90_000
 
 
 def test_nothing_moves_where_an_extension_may_say_where_it_lies():

@@ -105,7 +105,7 @@ def test_clips_of_models_are_valid(shared, faults, name):
 
 @pytest.mark.parametrize("name", ["draco", "quantized", "sparse", "meshopt_medium", "meshopt_high"])
 def test_clips_of_packed_files_are_valid(shared, faults, name):
-    """Cut between keys: what was compressed is compressed again."""
+    """Cut between keys: new ones lie beside what is compressed."""
     data = (shared / "data/gltf/variants" / f"Fox_{name}.glb").read_bytes()
     glb = clips_of(data, cut_at(opened(data, fps=29), [21, 48]))
     assert faults(data) == faults(glb) == []
