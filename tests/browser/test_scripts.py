@@ -155,26 +155,3 @@ def test_a_second_around_a_cut_is_played_once_whatever_is_repeated(answer) -> No
     """)
     assert seen[:3] == [[35, True], [50, False], [50, False]]
     assert 60 < seen[3] < 65
-
-
-def test_triangles_are_filled_without_seams_the_nearest_on_top_and_only_from_their_side(answer) -> None:
-    """Two triangles cover a square's pixels; a nearer square hides it, one farther, turned or nowhere does not."""
-    square, nearer, farther, turned, unseen = answer("""
-        import { fill } from 'VIEWER/filling.js';
-        const made = (...squares) => {
-            const picture = { width: 40, height: 40, left: 3, low: 5,
-                colours: new Uint32Array(1600), depths: new Float32Array(1600).fill(1) };
-            for (const [depth, shade, corners = [0, 1, 2, 0, 2, 3]] of squares) {
-                const at = [13, 15, depth, 33, 15, depth, 33, 35, depth, 13, 35, depth].map((n) => n + 0 * depth);
-                fill(picture, at, new Uint8Array(16).fill(shade), new Uint16Array(corners), 1);
-            }
-            const counts = {};
-            for (const colour of picture.colours) counts[colour & 255] = (counts[colour & 255] || 0) + 1;
-            return counts;
-        };
-        const first = [0.5, 100];
-        console.log(JSON.stringify([made(first), made(first, [0.4, 200]), made(first, [0.6, 200]),
-            made(first, [0.4, 200, [0, 2, 1, 0, 3, 2]]), made(first, [NaN, 200])]));
-    """)
-    assert square == farther == turned == unseen == {"0": 1200, "100": 400}
-    assert nearer == {"0": 1200, "200": 400}

@@ -1,32 +1,27 @@
 // A glTF plays as itself: the plain copy's one animation, skinned and morphed by the GPU.
 
-import { AnimationMixer, Box3, BufferAttribute, DoubleSide, LoopRepeat, MeshLambertMaterial, Object3D, Vector3 } from 'three';
+import { AnimationMixer, Box3, BufferAttribute, DoubleSide, LoopRepeat, MeshLambertMaterial, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { bones } from './bones.js';
 import { inOrder } from './locality.js';
-import { Painted } from './painted.js';
-import { drawnBySoftware } from './software.js';
-import { Skinning } from './skinning.js';
 
 /** The figure of a glTF's bytes. */
 export const gltfFigure = async (viewer, bytes, strain) =>
   new GltfFigure(await new GLTFLoader().parseAsync(bytes, ''), viewer, strain);
 
 class GltfFigure {
-  #mixer; #action; #clip; #viewer; #points = []; #bones = null; #skinnings = []; #at = new Vector3();
+  #mixer; #action; #clip; #viewer; #points = []; #bones = null; #at = new Vector3();
 
   constructor(gltf, viewer, strain) {
     this.object = gltf.scene;
     this.object.updateMatrixWorld(true);
-    this.painted = [];
     this.#viewer = viewer;
     const meshes = [];
     this.object.traverse((node) => {
       if (node.isMesh) meshes.push(node);
       if (node.isBone) this.#points.push(node);
     });
-    const here = drawnBySoftware() && meshes.every(Skinning.suits); // all or none: what is painted is in front of what is drawn
-    for (const mesh of meshes) this.#dress(mesh, strain, here);
+    for (const mesh of meshes) dress(mesh, strain);
     if (viewer.skeleton) {
       this.#bones = bones(this.object);
       this.object.add(this.#bones.object);
@@ -40,28 +35,6 @@ class GltfFigure {
       this.#action = this.#mixer.clipAction(this.#clip).setLoop(LoopRepeat).play();
     }
     this.pose(0);
-  }
-
-  #dress(mesh, strain, here) {
-    mesh.frustumCulled = false; // its box is that of the bind pose, and it walks out of it
-    const { geometry } = mesh;
-    if (!geometry.getAttribute('_patch')) {
-      geometry.setAttribute('_patch', new BufferAttribute(new Float32Array(geometry.getAttribute('position').count), 1));
-    }
-    if (geometry.index) geometry.setIndex(new BufferAttribute(inOrder(geometry.index.array), 1));
-    if (here) return this.#paint(mesh, strain);
-    mesh.material = strain.dress(new MeshLambertMaterial({
-      side: DoubleSide, flatShading: !geometry.getAttribute('normal'),
-    }));
-    if (mirrored(mesh)) mesh.material.defines = { MIRRORED: '' };
-  }
-
-  #paint(mesh, strain) {
-    const skinning = new Skinning(mesh);
-    const { index, attributes } = mesh.geometry;
-    this.#skinnings.push(skinning);
-    this.painted.push(new Painted(skinning.positions, skinning.normals, index.array, attributes._patch.array, strain, new Object3D()));
-    mesh.visible = false;
   }
 
   ready() { return true; }
@@ -78,7 +51,6 @@ class GltfFigure {
     }
     this.object.updateMatrixWorld(true);
     this.#bones?.update();
-    for (const skinning of this.#skinnings) skinning.pose();
   }
 
   /** The middle of the body: of its joints, or of its parts. */
@@ -99,6 +71,17 @@ class GltfFigure {
     this.#mixer?.stopAllAction();
     this.object.traverse((node) => { node.geometry?.dispose(); node.material?.dispose(); node.skeleton?.dispose(); });
   }
+}
+
+function dress(mesh, strain) {
+  mesh.frustumCulled = false; // its box is that of the bind pose, and it walks out of it
+  const { geometry } = mesh;
+  if (!geometry.getAttribute('_patch')) {
+    geometry.setAttribute('_patch', new BufferAttribute(new Float32Array(geometry.getAttribute('position').count), 1));
+  }
+  if (geometry.index) geometry.setIndex(new BufferAttribute(inOrder(geometry.index.array), 1));
+  mesh.material = strain.dress(new MeshLambertMaterial({ side: DoubleSide, flatShading: !geometry.getAttribute('normal') }));
+  if (mirrored(mesh)) mesh.material.defines = { MIRRORED: '' };
 }
 
 /** Whether joints mirror a skinned mesh: then its triangles turn the other way, which only the mesh itself says to three.js. */

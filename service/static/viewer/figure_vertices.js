@@ -1,9 +1,7 @@
 // A vertex sequence plays from blocks of int16 positions; the surface is lit by normals made here, frame by frame.
 
-import { Box3, BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshLambertMaterial, Object3D, Vector3 } from 'three';
+import { Box3, BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshLambertMaterial, Vector3 } from 'three';
 import { inOrder } from './locality.js';
-import { Painted } from './painted.js';
-import { drawnBySoftware } from './software.js';
 
 const LARGEST = 32767;
 
@@ -21,18 +19,6 @@ class VerticesFigure {
     this.#positions = new BufferAttribute(new Int16Array(vertices * 3), 3, true);
     this.#normals = new BufferAttribute(new Int8Array(vertices * 3), 3, true);
     this.#sums = new Float32Array(vertices * 3);
-    const software = drawnBySoftware();
-    const mesh = software ? new Object3D() : this.#lit(triangles, patches, strain);
-    this.painted = software ? [new Painted(this.#positions, this.#sums, triangles, patches, strain, mesh)] : [];
-    mesh.scale.setScalar(half);
-    mesh.position.fromArray(centre);
-    this.mesh = mesh;
-    this.object = new Group().add(mesh);
-    this.pose(0);
-  }
-
-  /** The surface for a graphics card. */
-  #lit(triangles, patches, strain) {
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', this.#positions);
     geometry.setAttribute('normal', this.#normals);
@@ -40,7 +26,11 @@ class VerticesFigure {
     geometry.setIndex(new BufferAttribute(triangles, 1));
     const mesh = new Mesh(geometry, strain.dress(new MeshLambertMaterial({ side: DoubleSide })));
     mesh.frustumCulled = false;
-    return mesh;
+    mesh.scale.setScalar(half);
+    mesh.position.fromArray(centre);
+    this.mesh = mesh;
+    this.object = new Group().add(mesh);
+    this.pose(0);
   }
 
   ready(frame) {
@@ -77,7 +67,6 @@ class VerticesFigure {
       sums[b] += x; sums[b + 1] += y; sums[b + 2] += z;
       sums[c] += x; sums[c + 1] += y; sums[c + 2] += z;
     }
-    if (this.painted.length) return;
     const normals = this.#normals.array;
     for (let i = 0; i < sums.length; i += 3) {
       const scale = 127 / (Math.hypot(sums[i], sums[i + 1], sums[i + 2]) || 1);
@@ -106,7 +95,7 @@ class VerticesFigure {
   }
 
   dispose() {
-    this.mesh.geometry?.dispose();
-    this.mesh.material?.dispose();
+    this.mesh.geometry.dispose();
+    this.mesh.material.dispose();
   }
 }

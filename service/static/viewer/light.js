@@ -17,16 +17,4 @@ export class Light {
     this.#rim.position.set(0.9, 0.5, -0.8).applyQuaternion(camera.quaternion).add(target);
     for (const light of [this.#key, this.#rim]) light.target.position.copy(target);
   }
-
-  /** What reaches a surface, for `Painted`: colours, linear and already divided by pi, and whence the two lights come. */
-  get parts() {
-    const from = (light) => light.position.clone().sub(light.target.position);
-    const shine = (colour, { intensity }) => colour.clone().multiplyScalar(intensity / Math.PI).toArray();
-    const { groundColor: ground, color: sky } = this.#sky;
-    return {
-      ground: shine(ground, this.#sky), sky: shine(sky, this.#sky),
-      key: shine(this.#key.color, this.#key), rim: shine(this.#rim.color, this.#rim),
-      keyFrom: from(this.#key), rimFrom: from(this.#rim),
-    };
-  }
 }

@@ -2,8 +2,7 @@
 
 import { make } from './dom.js';
 
-const OURS = ['bones', 'closed', 'eye', 'figure_gltf', 'figure_vertices', 'filling', 'floor', 'light', 'locality', 'painted',
-  'painting', 'picture', 'renderer', 'skinning', 'stage', 'strain'];
+const OURS = ['bones', 'eye', 'figure_gltf', 'figure_vertices', 'floor', 'light', 'locality', 'stage', 'strain'];
 const THREE = ['three', 'three/addons/controls/OrbitControls.js', 'three/addons/loaders/GLTFLoader.js',
   'three/addons/utils/BufferGeometryUtils.js', 'three/addons/utils/SkeletonUtils.js'];
 

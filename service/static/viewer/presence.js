@@ -5,7 +5,6 @@ import { askFigure } from './coming.js';
 import { $, painted } from './dom.js';
 import { colourOf } from './palette.js';
 import { fetchParts } from './parts.js';
-import { askGraphics } from './software.js';
 
 const LATE = 250; // ms after which a wait for blocks is said
 const SOON = 1500; // ms until it is asked again whether the figure is prepared
@@ -32,7 +31,7 @@ export class Presence {
     try {
       this.tell('Loading the figure …');
       await painted(); // all else is to be seen before the drawing of the figure keeps the page busy
-      const graphics = askGraphics(); // takes long, and beside all else
+      const graphics = startGraphics(); // takes long, and beside all else
       const arriving = asked.then((viewer) => askFigure(viewer, this.#signal, (share) => this.#arriving(share)));
       if (!stage) fetchParts();
       const [viewer, coming, { Stage }] = await Promise.all([asked, arriving, import('./stage.js'), graphics]);
@@ -116,4 +115,15 @@ export class Presence {
       this.#look = 'motion';
     }
   }
+}
+
+let started = null;
+
+/** Have a worker start the browser's graphics, once. */
+function startGraphics() {
+  started ??= new Promise((done) => {
+    const worker = new Worker(new URL('./webgl_start.js', import.meta.url));
+    worker.onmessage = worker.onerror = () => { worker.terminate(); done(); };
+  });
+  return started;
 }

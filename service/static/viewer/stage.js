@@ -1,19 +1,18 @@
 // The 3D view: eye, light, floor and one figure, at one moment or at two side by side. Draws only when something changed.
 
-import { Scene, Vector3 } from 'three';
+import { Scene, Vector3, WebGLRenderer } from 'three';
 import { onResize, onTheme, styled } from './dom.js';
 import { Eye } from './eye.js';
 import { gltfFigure } from './figure_gltf.js';
 import { verticesFigure } from './figure_vertices.js';
 import { Floor } from './floor.js';
 import { Light } from './light.js';
-import { Painting } from './painting.js';
-import { rendererOn } from './renderer.js';
-import { drawnBySoftware } from './software.js';
 import { Strain } from './strain.js';
 
+const FINEST = 2; // pixels to a CSS pixel; more is not seen
+
 export class Stage {
-  #renderer; #scene = new Scene(); #eye; #floor = new Floor(); #light = new Light(); #painting = drawnBySoftware() ? new Painting() : null; #asked = false;
+  #renderer; #scene = new Scene(); #eye; #floor = new Floor(); #light = new Light(); #asked = false;
   #middle = new Vector3(); #moments = []; #size = { width: 1, height: 1 };
 
   constructor(canvas) {
@@ -23,7 +22,6 @@ export class Stage {
     this.#renderer = rendererOn(canvas);
     this.#eye = new Eye(canvas, () => this.draw());
     this.#scene.add(this.#light.object, this.#eye.camera, this.#floor.object);
-    if (this.#painting) this.#scene.add(this.#painting.object);
     onResize(canvas.parentElement, () => this.#fit());
     onTheme(() => this.#theme());
     this.#theme();
@@ -122,7 +120,6 @@ export class Stage {
     const { camera, target } = this.#eye;
     this.#floor.follow(target, this.#middle);
     this.#light.follow(camera, target);
-    this.#painting?.paint(this.figure?.painted || [], camera, this.#light.parts, this.#renderer);
   }
 
   #fit() {
@@ -137,4 +134,14 @@ export class Stage {
     this.#floor.colours(styled('--grid'), styled('--shade'));
     this.draw();
   }
+}
+
+/** A renderer in WebGL, by the graphics card or by the browser's own software. */
+function rendererOn(canvas) {
+  const ratio = Math.min(devicePixelRatio, FINEST);
+  const context = canvas.getContext('webgl2', { alpha: true, antialias: ratio < FINEST });
+  if (!context) throw new Error('this browser does not offer WebGL 2. Everything else on this page works.');
+  const renderer = new WebGLRenderer({ canvas, context });
+  renderer.setPixelRatio(ratio);
+  return renderer;
 }

@@ -27,7 +27,7 @@ vec3 heatOf(float s) {
 `;
 
 export class Strain {
-  #file; #shown = -1; #colours = null;
+  #file; #shown = -1;
 
   /** Of a block file, or of none. */
   constructor(file = null) {
@@ -89,23 +89,5 @@ export class Strain {
     if (!heated) this.uniforms.tint.value.copy(choice && choice !== 'strain' ? new Color(choice).lerp(CLAY, 0.15) : CLAY);
   }
 
-  /** The same for `Painted`: `colours`, linear, of every byte of strain, and the bytes by patch; or one colour and null. */
-  painting() {
-    const { heated, tint, strainMap } = this.uniforms;
-    if (!heated.value) return { colours: tint.value.toArray(), values: null };
-    this.#colours ??= heatColours();
-    return { colours: this.#colours, values: strainMap.value.image.data };
-  }
-
   dispose() { this.uniforms.strainMap.value.dispose(); }
-}
-
-/** What the shader's `heatOf` says of every byte, flat. */
-function heatColours() {
-  const stops = HEAT.map((hex) => new Color(hex));
-  return Float32Array.from({ length: 256 }, (_, byte) => 4 * (byte / 255) ** BEND).reduce((out, x, byte) => {
-    const below = Math.min(3, Math.floor(x));
-    out.set(new Color().lerpColors(stops[below], stops[below + 1], x - below).toArray(), 3 * byte);
-    return out;
-  }, new Float32Array(768));
 }
