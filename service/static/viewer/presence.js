@@ -4,7 +4,6 @@ import * as api from './api.js';
 import { askFigure } from './coming.js';
 import { $, painted } from './dom.js';
 import { colourOf } from './palette.js';
-import { fetchParts } from './parts.js';
 
 const LATE = 250; // ms after which a wait for blocks is said
 const SOON = 1500; // ms until it is asked again whether the figure is prepared
@@ -33,7 +32,6 @@ export class Presence {
       await painted(); // all else is to be seen before the drawing of the figure keeps the page busy
       const graphics = startGraphics(); // takes long, and beside all else
       const arriving = asked.then((viewer) => askFigure(viewer, this.#signal, (share) => this.#arriving(share)));
-      if (!stage) fetchParts();
       const [viewer, coming, { Stage }] = await Promise.all([asked, arriving, import('./stage.js'), graphics]);
       if (this.#signal.aborted) return;
       stage ||= new Stage($('figure'));
