@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, BrowserType, Page, sync_playwright
 
 SOFTWARE_WEBGL = [
     "--use-angle=swiftshader",
@@ -54,13 +54,19 @@ def address(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterato
 
 
 @pytest.fixture(scope="session")
-def browser(chromium: Path, node: Path) -> Iterator[Browser]:
-    """Debian's Chromium, drawing WebGL in software."""
+def chromium_type(node: Path) -> Iterator[BrowserType]:
+    """What launches Chromium."""
     os.environ["PLAYWRIGHT_NODEJS_PATH"] = str(node)
     with sync_playwright() as playwright:
-        launched = playwright.chromium.launch(executable_path=chromium, headless=True, args=SOFTWARE_WEBGL)
-        yield launched
-        launched.close()
+        yield playwright.chromium
+
+
+@pytest.fixture(scope="session")
+def browser(chromium_type: BrowserType, chromium: Path) -> Iterator[Browser]:
+    """Debian's Chromium, drawing WebGL in software."""
+    launched = chromium_type.launch(executable_path=chromium, headless=True, args=SOFTWARE_WEBGL)
+    yield launched
+    launched.close()
 
 
 def tab(browser: Browser, address: str) -> Iterator[Page]:

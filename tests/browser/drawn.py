@@ -39,13 +39,13 @@ def ellipsoid() -> bytes:
     return stored.getvalue()
 
 
-def mirrored_bar() -> bytes:
-    """A GLB: a tube of two materials on two joints, the outer of which bends; the inner mirrors it all."""
+def jointed_bar(*, mirrored: bool) -> bytes:
+    """A GLB: a tube of two materials on two joints, the outer of which bends; the inner may mirror it all."""
     places, triangles = bar()
     normals = places * np.array([0, 20, 20], np.float32)
     outer = np.clip(4 * places[:, :1] - 1.5, 0, 1)
     writer = GlbWriter()
-    root = writer.node("root", scale=(-1.0, 1.0, 1.0))
+    root = writer.node("root", scale=(-1.0 if mirrored else 1.0, 1.0, 1.0))
     joint = writer.node("outer", parent=root, translation=(0.5, 0.0, 0.0))
     halves = np.array_split(triangles[np.argsort(places[triangles].mean(1)[:, 0], kind="stable")], 2)
     parts = [

@@ -1,7 +1,7 @@
 """What a person does to a list of segments, as plain values, run by Node."""
 
 SEGMENTS = """
-    import * as edits from 'VIEWER/segments.js';
+    import * as edits from 'VIEWER/editing/segment_edits.js';
     const one = (start, end, motion, name) => ({ start, end, motion, name, confidence: 0.9, repeats: [] });
     const all = [one(0, 10, 0, 'A'), one(10, 20, 1, 'B'), one(20, 30, 0, 'A'), one(30, 40, 2, 'C')];
     const told = (segments) => segments.map(({ start, end, motion, name }) => [start, end, motion, name]);
@@ -36,7 +36,7 @@ def test_a_motion_called_like_another_becomes_it_and_a_new_one_gets_a_free_lette
 def test_undo_goes_back_by_what_was_done_in_one_go(answer) -> None:
     """Five nudges of one cut are one step; after an undo, something else done forgets what was undone."""
     seen = answer("""
-        import { History } from 'VIEWER/history.js';
+        import { History } from 'VIEWER/editing/undo_history.js';
         const history = new History('computed');
         const seen = [];
         history.push('renamed');

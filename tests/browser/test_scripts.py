@@ -9,7 +9,7 @@ import pytest
 def test_a_thinned_curve_keeps_its_peaks_and_its_order(answer) -> None:
     """Of 72,000 frames on 500 columns, a peak of one frame is still there, and a gap stays a gap."""
     frames, values = answer("""
-        import { thinned } from 'VIEWER/thinning.js';
+        import { thinned } from 'VIEWER/timeline/decimation.js';
         const values = Array.from({ length: 72000 }, (_, i) => i < 2000 ? null : i === 41234 ? 9 : Math.sin(i / 50));
         console.log(JSON.stringify(thinned(values, 0, 72000, 500)));
     """)
@@ -21,7 +21,7 @@ def test_a_thinned_curve_keeps_its_peaks_and_its_order(answer) -> None:
 
 def test_every_stage_has_words(answer, checkout: Path) -> None:
     """What the worker and the method tell of themselves, and nothing that they never tell, is put to a person."""
-    known = answer("import { STAGES } from 'VIEWER/stages.js'; console.log(JSON.stringify(Object.keys(STAGES)));")
+    known = answer("import { STAGES } from 'VIEWER/start/stages.js'; console.log(JSON.stringify(Object.keys(STAGES)));")
     sources = [
         path.read_text(encoding="utf-8") for part in ("core", "worker") for path in checkout.glob(f"{part}/**/*.py")
     ]
@@ -32,7 +32,7 @@ def test_every_stage_has_words(answer, checkout: Path) -> None:
 def test_a_short_curve_is_drawn_as_it_is(answer) -> None:
     """Where every frame has a column, nothing is left out."""
     frames, values = answer("""
-        import { thinned } from 'VIEWER/thinning.js';
+        import { thinned } from 'VIEWER/timeline/decimation.js';
         console.log(JSON.stringify(thinned([1, 2, 3, 4, 5], 0, 5, 500)));
     """)
     assert frames == [0, 1, 2, 3, 4]
@@ -42,7 +42,7 @@ def test_a_short_curve_is_drawn_as_it_is(answer) -> None:
 def test_zooming_keeps_the_frame_under_the_pointer_and_the_take_in_view(answer) -> None:
     """In and out again is where one began; nothing outside the take is ever shown."""
     steps = answer("""
-        import { Span } from 'VIEWER/span.js';
+        import { Span } from 'VIEWER/timeline/visible_range.js';
         const span = new Span(1000);
         const seen = [];
         const note = () => seen.push([span.from, span.to]);
@@ -63,8 +63,8 @@ def test_two_fingers_keep_the_frames_under_them(answer) -> None:
     """Apart they zoom in, aside they move; one finger alone, or two on the same place, change nothing; of three, the
     outer ones count."""
     on, seen = answer("""
-        import { Pinch } from 'VIEWER/pinch.js';
-        import { Span } from 'VIEWER/span.js';
+        import { Pinch } from 'VIEWER/timeline/pinch.js';
+        import { Span } from 'VIEWER/timeline/visible_range.js';
         const span = new Span(1000);
         const pinch = new Pinch(span);
         const seen = [];
@@ -89,7 +89,7 @@ def test_two_fingers_keep_the_frames_under_them(answer) -> None:
 def test_playing_ends_with_the_take_and_waits_for_what_is_not_there(answer) -> None:
     """The clock never leaves the take, waits for what is not loaded, and repeats a segment that is looped."""
     seen = answer("""
-        import { Clock } from 'VIEWER/clock.js';
+        import { Clock } from 'VIEWER/timeline/playhead.js';
         let now = 0;
         const waiting = [];
         globalThis.requestAnimationFrame = (action) => waiting.push(action);
@@ -119,7 +119,7 @@ def test_playing_ends_with_the_take_and_waits_for_what_is_not_there(answer) -> N
 def test_a_name_is_shortened_to_what_there_is_room_for(answer) -> None:
     """What does not fit ends in three dots and keeps its mark; where not even that fits, nothing is written."""
     assert answer("""
-        import { fitted } from 'VIEWER/timeline.js';
+        import { fitted } from 'VIEWER/timeline/segment_track.js';
         const context = { measureText: (text) => ({ width: 10 * [...text].length }) };
         console.log(JSON.stringify([200, 110, 60, 30, 15].map((room) => fitted(context, 'walk forward', ' ↻', room))));
     """) == ["walk forward ↻", "walk for… ↻", "wal… ↻", "", ""]
@@ -129,7 +129,7 @@ def test_a_second_around_a_cut_is_played_once_whatever_is_repeated(answer) -> No
     """It ends at the cut, also where every segment is repeated, if it is asked for while it plays, and if the cut
     has to be fetched first."""
     seen = answer("""
-        import { Clock } from 'VIEWER/clock.js';
+        import { Clock } from 'VIEWER/timeline/playhead.js';
         let now = 0;
         const waiting = [];
         globalThis.requestAnimationFrame = (action) => waiting.push(action);
@@ -155,26 +155,3 @@ def test_a_second_around_a_cut_is_played_once_whatever_is_repeated(answer) -> No
     """)
     assert seen[:3] == [[35, True], [50, False], [50, False]]
     assert 60 < seen[3] < 65
-
-
-def test_triangles_are_filled_without_seams_the_nearest_on_top_and_only_from_their_side(answer) -> None:
-    """Two triangles cover a square's pixels; a nearer square hides it, one farther, turned or nowhere does not."""
-    square, nearer, farther, turned, unseen = answer("""
-        import { fill } from 'VIEWER/filling.js';
-        const made = (...squares) => {
-            const picture = { width: 40, height: 40, left: 3, low: 5,
-                colours: new Uint32Array(1600), depths: new Float32Array(1600).fill(1) };
-            for (const [depth, shade, corners = [0, 1, 2, 0, 2, 3]] of squares) {
-                const at = [13, 15, depth, 33, 15, depth, 33, 35, depth, 13, 35, depth].map((n) => n + 0 * depth);
-                fill(picture, at, new Uint8Array(16).fill(shade), new Uint16Array(corners), 1);
-            }
-            const counts = {};
-            for (const colour of picture.colours) counts[colour & 255] = (counts[colour & 255] || 0) + 1;
-            return counts;
-        };
-        const first = [0.5, 100];
-        console.log(JSON.stringify([made(first), made(first, [0.4, 200]), made(first, [0.6, 200]),
-            made(first, [0.4, 200, [0, 2, 1, 0, 3, 2]]), made(first, [NaN, 200])]));
-    """)
-    assert square == farther == turned == unseen == {"0": 1200, "100": 400}
-    assert nearer == {"0": 1200, "200": 400}

@@ -12,34 +12,20 @@ def static(checkout: Path) -> Path:
     return checkout / "service" / "static"
 
 
-def test_every_module_the_page_preloads_is_there_and_the_rest_is_imported_somewhere(static: Path) -> None:
-    """No address in the page is dead, and no module lies about unused."""
+def test_every_module_is_imported_and_every_import_is_there(static: Path) -> None:
+    """No module lies about unused, and none is asked for in vain."""
     html = (static / "index.html").read_text(encoding="utf-8")
-    preloaded = re.findall(r'modulepreload" href="/static/(viewer/[^"]+)"', html)
-    assert preloaded
-    assert all((static / path).is_file() for path in preloaded)
-    sources = {path.name: path.read_text(encoding="utf-8") for path in (static / "viewer").glob("*.js")}
-    imported = {name for text in sources.values() for name in re.findall(r"'\./([\w]+\.js)'", text)}
-    assert imported | {"app.js"} == set(sources)
-
-
-def test_all_modules_of_the_3d_view_are_asked_for_at_once(static: Path) -> None:
-    """What `stage.js` imports, near and far, is preloaded with the page or listed in `parts.js`."""
-    viewer = static / "viewer"
-    needed, waiting = {"stage"}, ["stage"]
-    while waiting:
-        text = (viewer / f"{waiting.pop()}.js").read_text(encoding="utf-8")
-        found = set(re.findall(r"from '\./(\w+)\.js'", text)) - needed
-        needed |= found
-        waiting += found
-    listed = set(re.findall(r"'(\w+)'", (viewer / "parts.js").read_text(encoding="utf-8").split("THREE")[0]))
-    preloaded = set(re.findall(r"viewer/(\w+)\.js", (static / "index.html").read_text(encoding="utf-8")))
-    assert listed - {"modulepreload"} == needed - preloaded
+    named = {static / path for path in re.findall(r'<script type="module" src="/static/([^"]+)"', html)}
+    modules = set((static / "viewer").rglob("*.js"))
+    for path in modules:
+        names = re.findall(r"(?:from |import\(|URL\()'(\.[^']+)'", path.read_text(encoding="utf-8"))
+        named |= {(path.parent / name).resolve() for name in names}
+    assert named == modules
 
 
 def test_the_page_asks_nobody_else(static: Path) -> None:
     """Nothing of our own names another host: the page works without the Internet."""
-    for path in [static / "index.html", *(static / "style").glob("*.css"), *(static / "viewer").glob("*.js")]:
+    for path in [static / "index.html", *(static / "style").glob("*.css"), *(static / "viewer").rglob("*.js")]:
         assert not re.search(r"https?://|//cdn", path.read_text(encoding="utf-8")), path.name
 
 

@@ -1,18 +1,18 @@
 // The page: which of its four faces it shows (start, waiting, refused, result), and what leads from one to another.
 
 import { frameOfAddress, remember, resultOfAddress, revisionOfAddress } from './address.js';
-import * as api from './api.js';
-import { controls, note, offerMethods } from './controls.js';
+import * as api from './service/api.js';
+import { controls, note, offerMethods } from './panels/segmentation_form.js';
 import { $, announce } from './dom.js';
-import { face, refuse } from './faces.js';
-import { drawHeatKey } from './heat.js';
-import { beginProgress, progress, statusProgress } from './progress.js';
-import { showRecent } from './recent.js';
+import { face, refuse } from './views.js';
+import { drawHeatKey } from './figure/heat.js';
+import { beginProgress, progress, statusProgress } from './start/progress.js';
+import { showRecent } from './start/recent_animations.js';
 import { Result } from './result.js';
-import { about, count } from './numbers.js';
-import { acceptFiles } from './upload.js';
-import { recut, openRevision } from './variants.js';
-import { finished } from './waiting.js';
+import { about, count } from './number_format.js';
+import { acceptFiles } from './start/file_drop.js';
+import { recut, openRevision } from './panels/variants.js';
+import { finished } from './service/job_status.js';
 import { wire } from './wiring.js';
 
 let shown = null; // the Result on screen
@@ -70,7 +70,7 @@ async function openSegmentation({ id }, signal) {
 /** A segmentation in any state: wait until it is over, then show it. */
 async function follow(id, signal) {
   const status = await finished(id, (now) => {
-    if (now.status === 'running') import('./stage.js'); // needed soon: fetched while we wait
+    if (now.status === 'running') import('./figure/scene.js'); // needed soon: fetched while we wait
     if (now.name) $('waiting-name').textContent = now.name;
     onCancel(now.status === 'done' ? async () => {} : () => api.cancel(id).catch(() => {})); // to cancel what is done is to delete it
     statusProgress(now);

@@ -2,7 +2,7 @@
 
 import { $ } from './dom.js';
 import { isPointed } from './pointed.js';
-import { jump } from './visits.js';
+import { jump } from './timeline/navigation.js';
 
 /** `shown()` is the result on screen, or null; `askHelp` opens the list of keys. */
 export function keyboard(shown, askHelp) {

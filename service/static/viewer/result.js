@@ -1,23 +1,23 @@
 // A result on screen: the curve, the timeline, the lists and the figure, tied together by one clock and one span.
 
-import { Clock } from './clock.js';
-import { reflect } from './controls.js';
-import { onCounting } from './counting.js';
-import { Curve } from './curve.js';
+import { Clock } from './timeline/playhead.js';
+import { reflect } from './panels/segmentation_form.js';
+import { onCounting } from './frame_numbering.js';
+import { Curve } from './timeline/energy_curve.js';
 import { $ } from './dom.js';
-import { Editor } from './editor.js';
-import { tellCounts, tellTake } from './facts.js';
-import { tellMoment } from './moment.js';
-import { SegmentList } from './motions.js';
-import { captions } from './pair.js';
+import { Editor } from './editing/editor.js';
+import { tellCounts, tellTake } from './panels/facts.js';
+import { tellMoment } from './panels/moment.js';
+import { SegmentList } from './panels/segment_list.js';
+import { captions } from './panels/pair.js';
 import { tagged } from './palette.js';
-import { Presence } from './presence.js';
-import { Review } from './review.js';
-import { indexAt } from './segments.js';
-import { Span } from './span.js';
-import { Timeline } from './timeline.js';
-import { Tracks } from './tracks.js';
-import { goTo, loop } from './visits.js';
+import { Presence } from './figure/figure_panel.js';
+import { Review } from './panels/cut_review.js';
+import { indexAt } from './editing/segment_edits.js';
+import { Span } from './timeline/visible_range.js';
+import { Timeline } from './timeline/segment_track.js';
+import { Tracks } from './timeline/pointer.js';
+import { goTo, loop } from './timeline/navigation.js';
 
 export class Result {
   #gone = new AbortController(); #tracks; #segment = -1; #list; #listener; #work = null;

@@ -1,6 +1,6 @@
 // Tabs over panels, one shown at a time (the pattern of the ARIA authoring guide).
 
-import { roving, stop } from './roving.js';
+import { roving, stop } from './roving_focus.js';
 
 /** Wire a tablist. Each tab names its panel by `aria-controls`. Answers a function that shows a tab by its id. */
 export function tabs(list) {

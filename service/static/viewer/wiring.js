@@ -1,16 +1,16 @@
 // Every control of the result, wired once: what stands in the page stays, what it acts on changes.
 
-import { countFrom, countsFrom, typedFrame } from './counting.js';
+import { countFrom, countsFrom, typedFrame } from './frame_numbering.js';
 import { $ } from './dom.js';
-import { downloads } from './downloads.js';
-import { editBar } from './edit_bar.js';
+import { downloads } from './panels/export_menu.js';
+import { editBar } from './editing/edit_toolbar.js';
 import { help } from './help.js';
 import { keyboard } from './keyboard.js';
-import { segmentList } from './motions.js';
-import { reviewTools } from './review.js';
-import { revisionList, showRevisions } from './revisions.js';
+import { segmentList } from './panels/segment_list.js';
+import { reviewTools } from './panels/cut_review.js';
+import { revisionList, showRevisions } from './panels/revision_list.js';
 import { tabs } from './tabs.js';
-import { jump, loop } from './visits.js';
+import { jump, loop } from './timeline/navigation.js';
 
 /** `shown()` is the result on screen, or null. Answers a function to call whenever what is shown has changed. */
 export function wire({ shown, openRevision }) {

@@ -1,0 +1,100 @@
+// The row of editing tools: it shows the segment at the moment, the selected cut, and whether all is kept.
+
+import { numberOf, onCounting, shownFrame, typedFrame } from '../frame_numbering.js';
+import { $, make } from '../dom.js';
+import { colourOf } from '../palette.js';
+import { motionsOf } from './segment_edits.js';
+
+const NEW = 'new';
+
+/** Wire the row once. `editor()` is the one at work. Answers a function that shows its state. */
+export function editBar(editor, { loadTheirs }) {
+  const on = (id, event, action) => $(id).addEventListener(event, action);
+  const name = $('motion-name');
+  name.addEventListener('change', () => { editor().rename(name.value); show(); });
+  for (const field of [name, $('cut-frame')]) {
+    field.addEventListener('keydown', (event) => {
+      if (event.key === 'Escape') { show(true); field.blur(); }
+      if (event.key === 'Enter') field.blur();
+    });
+  }
+  on('motion-of', 'change', (event) => editor().give(event.target.value === NEW ? null : Number(event.target.value)));
+  on('flag-loop', 'click', () => editor().flag('loop'));
+  on('flag-discard', 'click', () => editor().flag('discard'));
+  on('split', 'click', () => editor().split());
+  on('cut-before', 'click', () => editor().selectNext(-1));
+  on('cut-after', 'click', () => editor().selectNext(1));
+  on('nudge-back', 'click', () => editor().nudge(-1));
+  on('nudge-on', 'click', () => editor().nudge(1));
+  on('cut-frame', 'change', (event) => {
+    const frame = typedFrame(event.target.value);
+    if (frame !== null) editor().place(frame);
+    show(true);
+  });
+  on('merge', 'click', (event) => editor().merge(event.shiftKey));
+  on('undo', 'click', () => editor().undo());
+  on('redo', 'click', () => editor().redo());
+
+  function show(evenFocused = false) {
+    const at = editor();
+    if (!at) return;
+    showSegment(at, evenFocused);
+    showCut(at, evenFocused);
+    $('undo').disabled = !at.canUndo;
+    $('redo').disabled = !at.canRedo;
+    showKept(at, loadTheirs);
+  }
+  onCounting(() => show());
+  return show;
+}
+
+function showSegment(editor, evenFocused) {
+  const segment = editor.segments[editor.here];
+  const name = $('motion-name');
+  if (evenFocused || name !== document.activeElement) name.value = segment.name;
+  name.style.setProperty('--motion', colourOf(segment.motion));
+  const motions = motionsOf(editor.segments);
+  const said = motions.map((motion) => motion.name).join('\n');
+  const select = $('motion-of');
+  if (select.dataset.said !== said) {
+    select.dataset.said = said;
+    select.replaceChildren(...motions.map((motion) => make('option', { value: motion.motion }, `is ${motion.name}`)),
+      make('option', { value: NEW }, 'is a new motion'));
+  }
+  select.value = segment.motion;
+  $('flag-loop').setAttribute('aria-pressed', String(Boolean(segment.loop)));
+  $('flag-discard').setAttribute('aria-pressed', String(Boolean(segment.discard)));
+}
+
+function showCut(editor, evenFocused) {
+  const { cut, segments } = editor;
+  const none = cut < 0;
+  for (const tool of document.querySelectorAll('.of-cut')) tool.disabled = none;
+  $('cut-title').textContent = none ? 'no cut selected' : `${segments[cut].name} | ${segments[cut + 1].name}`;
+  const field = $('cut-frame');
+  if (evenFocused || field !== document.activeElement) field.value = none ? '' : numberOf(segments[cut].end);
+  $('timeline').setAttribute('aria-description', none ? '' : `Cut at frame ${shownFrame(segments[cut].end)} selected. Arrows move it.`);
+}
+
+const WORDS = {
+  waiting: () => 'Not saved yet',
+  saving: () => 'Saving …',
+  saved: (saving) => (saving.shown ? `Saved · revision ${saving.shown}` : 'As computed'),
+  failed: (saving) => `Not saved. ${saving.why}`,
+  stale: (saving) => `Not saved: somebody else made revision ${saving.theirs} meanwhile.`,
+};
+
+/** An honest word about where the edits are, and ways on where they are stuck. */
+function showKept(editor, loadTheirs) {
+  const { saving } = editor;
+  const words = WORDS[saving.kind](saving);
+  $('kept').dataset.kind = saving.kind;
+  if ($('kept-word').textContent === words) return; // a status that is set again is read out again
+  $('kept-word').textContent = words;
+  const way = (text, action) => make('button', { type: 'button', onclick: action }, text);
+  const ways = {
+    failed: () => [way('Try again', () => saving.flush().catch(() => {}))],
+    stale: () => [way('Load theirs', loadTheirs), way('Keep mine', () => saving.insist().catch(() => {}))],
+  };
+  $('kept-ways').replaceChildren(...(ways[saving.kind]?.() || []));
+}

@@ -1,0 +1,81 @@
+// Edits on their way to the service: one revision for what was done in one go, and an honest word about where they are.
+
+import * as api from '../service/api.js';
+import { same } from './segment_edits.js';
+
+const QUIET = 600; // ms without another edit before they are sent
+const LONGEST_NOTE = 200;
+
+/**
+ * `kind` is `saved` (nothing is open), `waiting` (edits not sent yet), `saving`, `failed` (`why` says it) or `stale`
+ * (somebody else has made revision `theirs` meanwhile); `onState()` hears whenever it changes.
+ */
+export class Saving {
+  #id; #onState; #kept; #wanted = null; #notes = []; #timer = 0; #sending = null;
+
+  /** `segments` are those of revision `shown`; `newest` is the number an edit must be made against. */
+  constructor({ id, segments, shown, newest, onState }) {
+    Object.assign(this, { shown, newest, kind: 'saved', theirs: null, why: '' });
+    this.#id = id;
+    this.#kept = segments;
+    this.#onState = onState;
+  }
+
+  /** Whether something would be lost if the page went now. */
+  get open() { return this.kind !== 'saved'; }
+
+  /** Keep these, in a moment; `note` says what was done. What is kept already needs no revision. */
+  want(segments, note) {
+    clearTimeout(this.#timer);
+    this.#wanted = segments;
+    if (this.#notes.at(-1) !== note) this.#notes.push(note);
+    if (this.#sending || this.kind === 'stale') return;
+    if (same(segments, this.#kept)) return this.#become('saved');
+    this.#become('waiting');
+    this.#timer = setTimeout(() => this.flush().catch(() => {}), QUIET);
+  }
+
+  /** Send what is open now. Resolves once it is kept; throws where it cannot be. */
+  flush() {
+    clearTimeout(this.#timer);
+    this.#sending ||= this.#send().finally(() => { this.#sending = null; });
+    return this.#sending;
+  }
+
+  /** Somebody else saved meanwhile, and these are to stand all the same: on top of theirs. */
+  insist() {
+    this.newest = this.theirs;
+    return this.flush();
+  }
+
+  close() { clearTimeout(this.#timer); }
+
+  async #send() {
+    while (this.#wanted && !same(this.#wanted, this.#kept)) {
+      const segments = this.#wanted;
+      const notes = [...this.#notes];
+      this.#become('saving');
+      try {
+        const answer = await api.revise(this.#id, segments, this.newest, notes.join(', ').slice(0, LONGEST_NOTE));
+        this.#kept = segments;
+        this.#notes = this.#notes.slice(notes.length);
+        this.shown = this.newest = answer.revision;
+      } catch (problem) {
+        if (problem.document?.status === 412) {
+          this.theirs = problem.document.current ?? (await api.status(this.#id)).revision;
+          this.#become('stale');
+        } else {
+          this.why = problem.message;
+          this.#become('failed');
+        }
+        throw problem;
+      }
+    }
+    this.#become('saved');
+  }
+
+  #become(kind) {
+    this.kind = kind;
+    this.#onState();
+  }
+}

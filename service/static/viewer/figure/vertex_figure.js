@@ -1,0 +1,101 @@
+// A vertex sequence plays from blocks of int16 positions; the surface is lit by normals made here, frame by frame.
+
+import { Box3, BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshLambertMaterial, Vector3 } from 'three';
+import { inOrder } from './triangle_order.js';
+
+const LARGEST = 32767;
+
+/** The figure of a sequence's parts. */
+export const verticesFigure = (viewer, { file, triangles, patches }, strain) =>
+  new VerticesFigure(file, inOrder(triangles), patches, strain);
+
+class VerticesFigure {
+  #file; #triangles; #positions; #normals; #frame = -1; #sums;
+
+  constructor(file, triangles, patches, strain) {
+    this.#file = file;
+    this.#triangles = triangles;
+    const { vertices, half, centre } = file.header;
+    this.#positions = new BufferAttribute(new Int16Array(vertices * 3), 3, true);
+    this.#normals = new BufferAttribute(new Int8Array(vertices * 3), 3, true);
+    this.#sums = new Float32Array(vertices * 3);
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', this.#positions);
+    geometry.setAttribute('normal', this.#normals);
+    geometry.setAttribute('_patch', new BufferAttribute(Float32Array.from(patches), 1));
+    geometry.setIndex(new BufferAttribute(triangles, 1));
+    const mesh = new Mesh(geometry, strain.dress(new MeshLambertMaterial({ side: DoubleSide })));
+    mesh.frustumCulled = false;
+    mesh.scale.setScalar(half);
+    mesh.position.fromArray(centre);
+    this.mesh = mesh;
+    this.object = new Group().add(mesh);
+    this.pose(0);
+  }
+
+  ready(frame) {
+    if (this.#file.has(frame)) return true;
+    this.fetch(frame).catch(() => {});
+    return false;
+  }
+
+  fetch(frame) { return this.#file.fetch(frame); }
+
+  pose(position) {
+    const frame = Math.floor(position);
+    const values = frame === this.#frame ? null : this.#file.peek(frame);
+    if (values) {
+      this.#frame = frame;
+      this.#positions.array.set(values);
+      this.#positions.needsUpdate = true;
+      this.#light(values);
+      this.#file.ahead(frame);
+    }
+    this.object.updateMatrixWorld(true);
+  }
+
+  /** Normals: the sum of the triangles' around each vertex, weighted by area. */
+  #light(p) {
+    const sums = this.#sums.fill(0);
+    const t = this.#triangles;
+    for (let i = 0; i < t.length; i += 3) {
+      const a = 3 * t[i], b = 3 * t[i + 1], c = 3 * t[i + 2];
+      const ux = p[b] - p[a], uy = p[b + 1] - p[a + 1], uz = p[b + 2] - p[a + 2];
+      const vx = p[c] - p[a], vy = p[c + 1] - p[a + 1], vz = p[c + 2] - p[a + 2];
+      const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+      sums[a] += x; sums[a + 1] += y; sums[a + 2] += z;
+      sums[b] += x; sums[b + 1] += y; sums[b + 2] += z;
+      sums[c] += x; sums[c + 1] += y; sums[c + 2] += z;
+    }
+    const normals = this.#normals.array;
+    for (let i = 0; i < sums.length; i += 3) {
+      const scale = 127 / (Math.hypot(sums[i], sums[i + 1], sums[i + 2]) || 1);
+      normals[i] = sums[i] * scale;
+      normals[i + 1] = sums[i + 1] * scale;
+      normals[i + 2] = sums[i + 2] * scale;
+    }
+    this.#normals.needsUpdate = true;
+  }
+
+  /** The middle of the body, from a few hundred of its vertices. */
+  centre(out) {
+    const p = this.#positions.array;
+    const step = 3 * Math.max(1, Math.floor(p.length / 3 / 500));
+    let n = 0;
+    out.set(0, 0, 0);
+    for (let i = 0; i < p.length; i += step) { out.x += p[i]; out.y += p[i + 1]; out.z += p[i + 2]; n += 1; }
+    return out.divideScalar(n * LARGEST).applyMatrix4(this.mesh.matrixWorld);
+  }
+
+  box() {
+    const box = new Box3();
+    const at = new Vector3();
+    for (let i = 0; i < this.#positions.count; i++) box.expandByPoint(at.fromBufferAttribute(this.#positions, i));
+    return box.applyMatrix4(this.mesh.matrixWorld);
+  }
+
+  dispose() {
+    this.mesh.geometry.dispose();
+    this.mesh.material.dispose();
+  }
+}

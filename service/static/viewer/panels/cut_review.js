@@ -1,0 +1,135 @@
+// The cuts, least certain first, for a person to look through.
+
+import { doubtful } from '../editing/certainty.js';
+import { Checked } from './checked.js';
+import { onCounting } from '../frame_numbering.js';
+import { cutRow, cutText } from './cut_row.js';
+import { $, inView, make } from '../dom.js';
+import { count } from '../number_format.js';
+import { roving, stop } from '../roving_focus.js';
+
+const AROUND = 0.5; // seconds played on either side
+const WIDE = 30; // seconds to look at a cut in, where more than twice that is shown
+
+export class Review {
+  #list = $('cuts'); #editor; #clock; #span; #checked; #rows = new Map(); #drawn = null;
+
+  /** `editor` selects cuts, `clock` plays around them, `span` shows them; results are told apart by `id`. */
+  constructor(id, editor, clock, span, signal) {
+    this.#editor = editor;
+    this.#clock = clock;
+    this.#span = span;
+    this.#checked = new Checked(id);
+    this.#list.replaceChildren();
+    onCounting(() => { this.#drawn = null; this.show(); }, signal);
+  }
+
+  /** List the cuts as they are now, and mark the selected one. */
+  show() {
+    const { segments } = this.#editor;
+    if (this.#drawn !== segments) this.#draw(segments);
+    const chosen = this.#rowOf(this.#editor.cut);
+    const marked = this.#list.querySelector('[aria-current]');
+    if (marked !== chosen) marked?.removeAttribute('aria-current');
+    chosen?.setAttribute('aria-current', 'true');
+    const at = this.#selected;
+    for (const id of ['around', 'checked']) $(id).disabled = !at;
+    $('checked').setAttribute('aria-pressed', String(Boolean(at && this.#checked.has(at.end))));
+  }
+
+  /** Select the cut that is least certain after the selected one, and bring its row into view. Answers whether there was one. */
+  next() {
+    const open = this.#order().filter(({ segment }) => this.#isOpen(segment));
+    const at = open.findIndex(({ cut }) => cut === this.#editor.cut);
+    const next = open[(at + 1) % Math.max(1, open.length)];
+    if (!next) return false;
+    this.#choose(next.cut);
+    inView(this.#list, this.#rowOf(next.cut));
+    return true;
+  }
+
+  /** Mark the selected cut as checked and go on, or take the mark away. */
+  check() {
+    if (!this.#selected) return;
+    const marked = this.#checked.toggle(this.#selected.end);
+    this.#drawn = null;
+    if (!marked || !this.next()) this.show();
+  }
+
+  /** Play a second around the selected cut. */
+  play() {
+    if (!this.#selected) return;
+    const { end } = this.#selected;
+    const some = AROUND * this.#clock.rate;
+    this.#clock.once(end - some, end + some, end);
+  }
+
+  /** The segment that the selected cut ends, if one is selected. */
+  get #selected() { return this.#editor.segments[this.#editor.cut]; }
+
+  /** Select a cut, near enough to see where it lies. */
+  #choose(cut) {
+    this.#editor.select(cut);
+    const { end } = this.#editor.segments[cut];
+    const wide = WIDE * this.#clock.rate;
+    if (this.#span.length > 2 * wide) this.#span.set(end - wide / 2, end + wide / 2);
+  }
+
+  /** Whether nobody has checked or placed the cut that ends a segment. */
+  #isOpen({ end, confidence }) { return confidence !== null && !this.#checked.has(end); }
+
+  /** All cuts: those without an open question last. */
+  #order() {
+    const cuts = this.#editor.segments.slice(0, -1).map((segment, cut) => ({ segment, cut }));
+    const rank = ({ segment }) => (this.#isOpen(segment) ? segment.confidence : 2);
+    return cuts.sort((one, other) => rank(one) - rank(other) || one.cut - other.cut);
+  }
+
+  /** Bring the list to what the cuts are now, row by row: an edit changes a few of what may be hundreds. */
+  #draw(segments) {
+    this.#drawn = segments;
+    const order = this.#order();
+    const kept = new Map();
+    order.forEach(({ segment, cut }, place) => {
+      const text = this.#text(cut);
+      const item = this.#rows.get(text.key) || this.#item(segment, segments[cut + 1], text);
+      kept.set(text.key, item);
+      if (this.#list.children[place] !== item) this.#list.insertBefore(item, this.#list.children[place] || null);
+    });
+    while (this.#list.children.length > order.length) this.#list.lastChild.remove();
+    this.#rows = kept;
+    if (!this.#list.querySelector('[tabindex="0"]')) stop(this.#list, 'button');
+    this.#say(order.map(({ segment }) => segment));
+  }
+
+  #say(segments) {
+    const open = segments.filter((segment) => this.#isOpen(segment));
+    const doubts = open.filter(doubtful).length;
+    $('doubts').textContent = doubts;
+    $('doubts').hidden = !doubts;
+    $('doubtful').disabled = !open.length;
+    $('review-hint').textContent = !segments.length ? 'There are no cuts: the take is one segment.'
+      : open.length ? `${doubts ? count(doubts, 'cut is', 'cuts are') : 'No cut is'} in doubt. Least certain first.` : 'Every cut has been checked.';
+  }
+
+  #text(cut) {
+    const [before, after] = this.#editor.segments.slice(cut, cut + 2);
+    return cutText(before, after, this.#checked.has(before.end));
+  }
+
+  #item(before, after, text) {
+    const choose = () => this.#choose(this.#editor.segments.findIndex((segment) => segment.end === before.end));
+    return make('li', {}, cutRow(before, after, text, choose));
+  }
+
+  /** The row of a cut, if it is listed. */
+  #rowOf(cut) { return cut < 0 ? null : this.#rows.get(this.#text(cut).key)?.firstChild; }
+}
+
+/** Wire the tools of the list once. */
+export function reviewTools(review) {
+  roving($('cuts'), 'button');
+  $('doubtful').addEventListener('click', () => review()?.next());
+  $('around').addEventListener('click', () => review()?.play());
+  $('checked').addEventListener('click', () => review()?.check());
+}

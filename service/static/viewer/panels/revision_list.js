@@ -1,0 +1,29 @@
+// What was kept, newest first, down to the result as computed. Any of them can be shown, and edited from there.
+
+import * as api from '../service/api.js';
+import { $, make } from '../dom.js';
+import { ago } from '../number_format.js';
+import { roving, stop } from '../roving_focus.js';
+
+let asked = 0;
+
+/** List the revisions of a result and mark the one `shown`. `open(number)` is called for the one chosen. */
+export async function showRevisions(id, shown, open) {
+  const turn = ++asked;
+  const answer = await api.revisions(id).catch(() => null);
+  if (turn !== asked) return; // an older answer that came later
+  const kept = answer?.revisions || [{ revision: 0, created: null, note: '' }];
+  const rows = kept.toReversed().map(({ revision, created, note }) => {
+    const row = make('button', { type: 'button', className: 'revision', tabIndex: -1, onclick: () => open(revision) },
+      make('span', { className: 'name' }, revision ? `Revision ${revision}` : 'Computed result'),
+      make('span', { className: 'ago' }, created ? ago(created) : ''),
+      note ? make('span', { className: 'note-line' }, note) : null);
+    if (revision === shown) row.setAttribute('aria-current', 'true');
+    return make('li', {}, row);
+  });
+  $('revisions').replaceChildren(...rows);
+  stop($('revisions'), 'button');
+}
+
+/** Wire the list once. */
+export const revisionList = () => roving($('revisions'), 'button');

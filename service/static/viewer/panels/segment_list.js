@@ -1,0 +1,73 @@
+// The list of segments: what, from where, how long. Every row is a button that goes there; one Tab stop for all.
+
+import { doubtful } from '../editing/certainty.js';
+import { countsFrom, shownFrame, shownInterval } from '../frame_numbering.js';
+import { $, inView, make, unseen } from '../dom.js';
+import { duration } from '../number_format.js';
+import { swatch } from '../palette.js';
+import { roving, stop } from '../roving_focus.js';
+
+export class SegmentList {
+  #list = $('segments'); #rows = []; #document = null; #counted = 0; #go; #current = null;
+
+  /** `go(index)` is called when a row is chosen. */
+  constructor(go) { this.#go = go; }
+
+  /** Show a document. Rows whose segment is the same object stay as they are: an edit changes one or two. */
+  show(document) {
+    const before = this.#document?.segments || [];
+    const whole = before.length !== document.segments.length || this.#counted !== countsFrom();
+    this.#document = document;
+    this.#counted = countsFrom();
+    $('column-frames').textContent = this.#counted ? 'frames' : 'from';
+    if (whole) return this.#fill();
+    document.segments.forEach((segment, index) => {
+      if (segment === before[index]) return;
+      const row = this.#row(index);
+      row.tabIndex = this.#rows[index].tabIndex;
+      if (this.#rows[index] === window.document.activeElement) queueMicrotask(() => row.focus());
+      this.#rows[index].replaceWith(row);
+      if (this.#rows[index] === this.#current) this.#current = null;
+      this.#rows[index] = row;
+    });
+  }
+
+  /** Mark the row that plays, and keep it in view. */
+  mark(index) {
+    const row = this.#rows[index];
+    if (row === this.#current) return;
+    this.#current?.removeAttribute('aria-current');
+    this.#current = row;
+    if (!row) return;
+    row.setAttribute('aria-current', 'true');
+    inView(this.#list, row);
+  }
+
+  #fill() {
+    this.#rows = this.#document.segments.map((_, index) => this.#row(index));
+    this.#current = null;
+    this.#list.replaceChildren(...this.#rows.map((row) => make('li', {}, row)));
+    stop(this.#list, 'button');
+  }
+
+  #row(index) {
+    const segment = this.#document.segments[index];
+    const length = duration((segment.end - segment.start) / this.#document.frame_rate);
+    const place = this.#counted ? shownInterval(segment.start, segment.end) : shownFrame(segment.start);
+    const row = make('button', { type: 'button', className: 'segment', tabIndex: -1, onclick: () => this.#go(index) },
+      swatch(segment.motion),
+      make('span', { className: 'name', title: segment.name }, segment.name),
+      unseen(this.#counted ? ' frames ' : ' from frame '),
+      make('span', { className: 'from' }, place),
+      unseen(' lasts '),
+      make('span', { className: 'long' }, length),
+      make('span', { className: 'marks' }, segment.loop ? make('span', {}, '↻', unseen(' loops')) : null,
+        doubtful(segment) ? make('b', { title: 'The method is in doubt about where this ends' }, '?', unseen(' doubtful end')) : null));
+    if (segment.discard) row.append(unseen(' discarded'));
+    row.classList.toggle('discarded', Boolean(segment.discard));
+    return row;
+  }
+}
+
+/** Wire the list once. */
+export const segmentList = () => roving($('segments'), 'button');

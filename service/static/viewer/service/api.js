@@ -1,0 +1,102 @@
+// The REST calls of the page. It is a client like any other: nothing here that curl could not do.
+
+import { signedIn } from './sign_in.js';
+
+/** A refusal, with the problem document (RFC 9457) it came with. */
+export class Problem extends Error {
+  constructor(document) {
+    super(document.detail || document.title || 'The service gave no reason.');
+    this.document = document;
+  }
+}
+
+const UNREACHABLE = { code: 'unreachable', detail: 'The service does not answer. Is it running, and is the network up?' };
+
+async function call(method, path, { body, headers, signal } = {}) {
+  let answer;
+  try {
+    answer = await fetch(path, { method, body, headers, signal });
+  } catch (failure) {
+    if (failure.name === 'AbortError') throw failure;
+    throw new Problem(UNREACHABLE);
+  }
+  if (answer.status === 401) { await signedIn(); return call(method, path, { body, headers, signal }); }
+  if (!answer.ok) throw new Problem(await problemOf(answer));
+  return answer.status === 204 ? null : answer.json();
+}
+
+async function problemOf(answer) {
+  const text = await answer.text();
+  return parsedProblem(text, answer.status);
+}
+
+function parsedProblem(text, status) {
+  try {
+    const document = JSON.parse(text);
+    if (document && document.detail) return document;
+  } catch { /* not ours: a proxy's page, or nothing */ }
+  return { status, code: `http-${status}`, detail: `The service answered ${status} without saying why.` };
+}
+
+const json = (value) => ({ body: JSON.stringify(value), headers: { 'Content-Type': 'application/json' } });
+
+export const recentAnimations = () => call('GET', '/v1/animations');
+export const segmentationsOf = (id) => call('GET', `/v1/segmentations?animation=${id}`);
+export const methods = () => call('GET', '/v1/methods');
+export const status = (id, wait, signal) =>
+  call('GET', `/v1/segmentations/${id}`, { headers: wait ? { Prefer: `wait=${wait}` } : {}, signal });
+export const result = (id, revision = 0) =>
+  call('GET', `/v1/segmentations/${id}/result${asked(revision)}`, { headers: { Accept: 'application/json' } });
+export const revisions = (id) => call('GET', `/v1/segmentations/${id}/revisions`);
+export const viewer = (id) => call('GET', `/v1/segmentations/${id}/viewer`);
+export const cancel = (id) => call('DELETE', `/v1/segmentations/${id}`);
+export const segment = (animationId, parameters = {}) =>
+  call('POST', '/v1/segmentations', json({ animation: animationId, ...parameters }));
+
+/** Where a form of the result is, as of a revision: `result.csv`, `clips`, `plot.svg`. */
+export const form = (id, name, revision = 0) => `/v1/segmentations/${id}/${name}${asked(revision)}`;
+const asked = (revision) => (revision ? `?revision=${revision}` : '');
+
+/** Keep edited segments as the revision after number `newest`; 412 where somebody else has made one since. */
+export function revise(id, segments, newest, note) {
+  const sent = segments.map(({ start, end, motion, name, loop, discard }) =>
+    ({ start, end, motion, name, loop: Boolean(loop), discard: Boolean(discard) }));
+  const { body, headers } = json({ segments: sent, note });
+  return call('POST', `/v1/segmentations/${id}/revisions`, { body, headers: { ...headers, 'If-Match': `"${newest}"` } });
+}
+
+/** Whether what a worker has to write first is there to be fetched, after waiting for it for a while. */
+export async function written(address) {
+  const answer = await fetch(address, { headers: { Prefer: 'wait=30', Range: 'bytes=0-0' } }).catch(() => null);
+  if (!answer) throw new Problem(UNREACHABLE);
+  if (!answer.ok) throw new Problem(await problemOf(answer));
+  return answer.status !== 202;
+}
+
+/**
+ * Upload one file as the body, several as a form. `onProgress` hears the share sent.
+ * XMLHttpRequest, because fetch cannot say how much of a body has gone.
+ */
+export function upload(files, onProgress, signal) {
+  return new Promise((resolve, reject) => {
+    const request = new XMLHttpRequest();
+    const name = encodeURIComponent(files[0].name);
+    request.open('POST', files.length === 1 ? `/v1/animations?name=${name}` : '/v1/animations');
+    request.upload.onprogress = (event) => event.lengthComputable && onProgress(event.loaded / event.total);
+    request.onerror = () => reject(new Problem(UNREACHABLE));
+    request.onabort = () => reject(new DOMException('cancelled', 'AbortError'));
+    request.onload = () => {
+      if (request.status < 300) resolve(JSON.parse(request.responseText));
+      else reject(new Problem(parsedProblem(request.responseText, request.status)));
+    };
+    signal?.addEventListener('abort', () => request.abort());
+    if (files.length === 1) {
+      request.setRequestHeader('Content-Type', 'application/octet-stream');
+      request.send(files[0]);
+    } else {
+      const form = new FormData();
+      for (const file of files) form.append('files', file, file.name);
+      request.send(form);
+    }
+  });
+}

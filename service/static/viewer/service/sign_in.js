@@ -1,0 +1,63 @@
+// Signing in, where the service wants a key: asked once, exchanged for a cookie that no script can read.
+
+import { make } from '../dom.js';
+
+const SIGNED_IN = 'caesura-signed-in'; // in this browser's memory: only that it was done, to offer signing out
+
+/** Once somebody is signed in. However many calls wait, the person is asked once. */
+export function signedIn() {
+  asking ??= ask().finally(() => { asking = null; });
+  return asking;
+}
+let asking = null;
+
+function ask() {
+  const key = make('input', { type: 'password', id: 'key', autocomplete: 'current-password', required: true });
+  const problem = make('p', { className: 'problem', role: 'alert', hidden: true });
+  const form = make('form', { method: 'dialog' },
+    make('h2', { id: 'sign-in' }, 'This service wants a key'),
+    make('p', { className: 'faint' }, 'Whoever keeps the service makes one for you.'),
+    make('p', { className: 'ask' }, make('label', { htmlFor: 'key' }, 'Key'), key, make('button', { type: 'submit', className: 'primary' }, 'Sign in')),
+    problem);
+  const dialog = make('dialog', { 'aria-labelledby': 'sign-in' }, form);
+  dialog.addEventListener('cancel', (event) => event.preventDefault()); // nothing behind it can be used without
+  document.body.append(dialog);
+  dialog.showModal();
+  return new Promise((resolve) => {
+    form.addEventListener('submit', async (event) => {
+      event.preventDefault();
+      const refused = await refusal(key.value);
+      problem.textContent = refused;
+      problem.hidden = !refused;
+      if (refused) { key.select(); return; }
+      localStorage.setItem(SIGNED_IN, 'yes');
+      dialog.close();
+      dialog.remove();
+      offerSignOut();
+      resolve();
+    });
+  });
+}
+
+/** Why the key was refused; empty where it was taken. */
+async function refusal(key) {
+  const answer = await fetch('/v1/session', {
+    method: 'POST', body: JSON.stringify({ key }), headers: { 'Content-Type': 'application/json' },
+  }).catch(() => null);
+  if (answer?.ok) return '';
+  const document = await answer?.json().catch(() => null);
+  return document?.detail || 'The service does not answer.';
+}
+
+function offerSignOut() {
+  if (!localStorage.getItem(SIGNED_IN) || document.getElementById('sign-out')) return;
+  document.querySelector('header').append(make('button', { type: 'button', id: 'sign-out', onclick: signOut }, 'Sign out'));
+}
+
+async function signOut() {
+  await fetch('/v1/session', { method: 'DELETE' }).catch(() => null);
+  localStorage.removeItem(SIGNED_IN);
+  location.assign('/');
+}
+
+offerSignOut();

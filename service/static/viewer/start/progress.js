@@ -1,0 +1,36 @@
+// The wait: every stage as it comes, ticked when it is over.
+
+import { $, make } from '../dom.js';
+import { stageInWords } from './stages.js';
+
+let stages = [];
+
+export function beginProgress(name) {
+  stages = [];
+  $('stages').replaceChildren();
+  $('waiting-name').textContent = name || 'Working';
+  $('waiting-note').textContent = '';
+  $('waiting-bar').removeAttribute('value');
+}
+
+/** Show a stage, and how much of it is done (null where nobody knows). */
+export function progress(stage, fraction = null, note = fraction === null ? '' : `${Math.round(100 * fraction)} %`) {
+  const words = stageInWords(stage);
+  if (words && stages.at(-1) !== words) {
+    stages.push(words);
+    $('stages').querySelector('[aria-current]')?.removeAttribute('aria-current');
+    $('stages').append(make('li', { 'aria-current': 'step' }, words));
+  }
+  const bar = $('waiting-bar');
+  if (fraction === null) bar.removeAttribute('value'); else bar.value = fraction;
+  $('waiting-note').textContent = note;
+}
+
+/** The same for a status document of the service. */
+export function statusProgress(status) {
+  const { stage, fraction } = status.progress || {};
+  if (status.status === 'queued') {
+    const ahead = status.position || 0;
+    progress('queued', null, ahead ? `${ahead} before this one` : '');
+  } else if (status.status === 'running') progress(stage || 'read', fraction ?? null);
+}
