@@ -11,6 +11,8 @@ import pytest
 from tests.service.conftest import with_its_own_redis
 from worker import keys
 from worker.connection import connect
+from worker.horses import CaesuraWorker
+from worker.jobs import Jobs
 from worker.roster import IDLE_SECONDS, alive_here, unserved
 
 WORKER = """
@@ -92,12 +94,11 @@ def test_a_worker_that_was_killed_is_missed(lonely, start):
     assert readiness(lonely)[0] == 503
 
 
-def test_a_redis_that_lost_everything_hears_of_its_workers_again(lonely, start):
-    """At their next sign of life, which comes with every job."""
-    start("analyse", "cut")
+def test_a_redis_that_lost_everything_hears_of_its_workers_again(lonely):
+    """At their next sign of life, without a new start."""
     with connect(lonely.redis_url) as client:
+        worker = CaesuraWorker(["analyse", "cut"], client, Jobs(client))
         client.flushall()
-        assert readiness(lonely)[0] == 503
-        lonely.http.delete("/v1/animations/nothing")
-        client.rpush("rq:queue:cut", "nothing")
-        until(lambda: readiness(lonely)[0] == 200)
+        worker.heartbeat()
+        assert readiness(lonely)[0] == 200
+        client.flushall()
