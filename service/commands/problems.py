@@ -1,6 +1,7 @@
 """How a command ends: its exit code, and what was wrong as a sentence or as JSON."""
 
 import json
+import sys
 from collections.abc import Mapping
 from typing import Any
 
@@ -63,3 +64,9 @@ class Command(click.Command):
             ctx.exit(show({"kind": "usage", "code": "usage", "detail": refused.format_message()}, as_json=True))
         except CaesuraError as refused:
             ctx.exit(show(refused.problem(), as_json=as_json))
+        except ModuleNotFoundError as missing:
+            name = (missing.name or "").partition(".")[0]
+            if name in {"core", "samples", "service", "worker"} | sys.stdlib_module_names:
+                raise
+            detail = f"{name} is not installed, which this command needs. Install caesura[service]."
+            ctx.exit(show(Unreachable("not-installed", detail).problem(), as_json=as_json))

@@ -2,8 +2,10 @@
 
 import click
 
+from service.commands.problems import Command
 
-@click.command()
+
+@click.command(cls=Command)
 @click.option("--queues", multiple=True, metavar="NAME,...", help="One worker that takes from these; may be repeated.")
 @click.option("--check", is_flag=True, help="End at once: 0 where a worker of this machine is alive, 1 where none is.")
 def worker(queues: tuple[str, ...], check: bool) -> None:
