@@ -50,7 +50,7 @@ lint: setup
 	$(BIN)/lint-imports --no-logo
 
 audit: setup .venv/audit/ready
-	$(BIN)/ruff check --select S core samples service worker
+	$(BIN)/ruff check --select S caesura core formats samples service worker
 	$(BIN)/python tools/audit.py
 
 # Apart: pip-audit brings thirty packages that nothing else needs.

@@ -4,7 +4,8 @@
 
 Two trials of CMU subject 86, 120 frames a second, the number of motions told, the parameters their program has. Frame
 accuracy under the best matching of labels, on reduced frames as they count; mean and standard deviation over seeds. A
-row `as measured` has the lengths of first segments as their program takes them (see `core.alignment.kernels.pure`),
+row `as measured` has the lengths of first segments as their program takes them
+(see `caesura.core.kernels.alignment.pure`),
 the row above as their papers say, which is what `method=aca` and `method=haca` do. Writes its table into
 docs/accuracy.md, or with `--print` not.
 """
@@ -19,15 +20,15 @@ from threadpoolctl import threadpool_limits
 
 from benchmarks.joint_angles import joint_angles, true_motions
 from benchmarks.report import ACCURACY, write_section
-from core.agreement import frame_accuracy
-from core.alignment.cluster_analysis import aligned
-from core.alignment.frame_kernel import frame_kernel
-from core.alignment.hierarchy import hierarchy
-from core.alignment.initial import Initial
-from core.alignment.reduction import reduction
-from core.alignment.segments import Lengths
-from core.alignment.short_runs import without_short_runs
-from core.alignment.spectral_groups import spectral_groups
+from caesura.core.agreement import frame_accuracy
+from caesura.core.methods.alignment.cluster_analysis import aligned
+from caesura.core.methods.alignment.frame_kernel import frame_kernel
+from caesura.core.methods.alignment.hierarchy import hierarchy
+from caesura.core.methods.alignment.initial_segmentation import Initial
+from caesura.core.methods.alignment.segments import Lengths
+from caesura.core.methods.alignment.short_runs import without_short_runs
+from caesura.core.methods.alignment.spectral_clustering import spectral_groups
+from caesura.core.methods.alignment.temporal_reduction import reduction
 
 TRIALS = ("86_01", "86_09")
 REDUCED_BY = 5

@@ -16,9 +16,9 @@ from pathlib import Path
 import httpx
 
 from benchmarks.processes import PROC
-from worker.blobs import Blobs
-from worker.jobs import Jobs
-from worker.settings import WorkerSettings
+from caesura.worker.queue.jobs import Jobs
+from caesura.worker.settings import WorkerSettings
+from caesura.worker.store.blobs import Blobs
 
 READY_SECONDS = 90
 STOP_SECONDS = 60
@@ -49,7 +49,7 @@ class House:
         }
         with (self.folder / "log").open("ab") as log:
             self._process = subprocess.Popen(
-                [sys.executable, "-m", "service.cli", "serve", "--port", self.url.rpartition(":")[2]],
+                [sys.executable, "-m", "caesura.service.commands.cli", "serve", "--port", self.url.rpartition(":")[2]],
                 env=environment,
                 stdin=subprocess.DEVNULL,
                 stdout=log,
@@ -106,7 +106,12 @@ class House:
         return Blobs.open(self.settings.store_location, self.settings.scratch_dir)
 
 
-WORDS = {"service.web": "web", "-m worker": "pool", "valkey-server": "Redis", "redis-server": "Redis"}
+WORDS = {
+    "caesura.service.process.web": "web",
+    "-m caesura.worker": "pool",
+    "valkey-server": "Redis",
+    "redis-server": "Redis",
+}
 
 
 def _children(pid: int) -> list[int]:

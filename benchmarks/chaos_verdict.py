@@ -8,8 +8,8 @@ import httpx
 
 from benchmarks.chaos_client import Seen
 from benchmarks.chaos_house import House
-from worker.jobs import Jobs
-from worker.orphans import forget_orphans
+from caesura.worker.queue.jobs import Jobs
+from caesura.worker.retention.orphaned_blobs import forget_orphans
 
 QUIET_SECONDS = 300.0  # until the small jobs are done that nobody waits for
 

@@ -7,16 +7,16 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float
 
-from core.animation import Animation
-from core.blocks import blocks_of, frames_per_block
-from core.body import NO_PATCHES, Body
-from core.codes import CODES
-from core.drawing import draw
-from core.energy import energy_curve, window_frames
-from core.parameters import Parameters
-from core.pipeline import CODES_BYTES
-from core.rest import rest_shape
-from core.survey import Survey, survey
+from caesura.core.animation import Animation
+from caesura.core.block_pass.measured_body import NO_PATCHES, Body
+from caesura.core.block_pass.quantisation import CODES
+from caesura.core.block_pass.rest_pose import rest_shape
+from caesura.core.block_pass.vertex_pass import Survey, survey
+from caesura.core.energy.energy_curve import energy_curve, window_frames
+from caesura.core.frames.blocks import blocks_of, frames_per_block
+from caesura.core.frames.sampled_frames import draw
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import CODES_BYTES
 
 LEVELS = 10
 

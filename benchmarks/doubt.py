@@ -18,9 +18,9 @@ from jaxtyping import Bool, Float
 
 from benchmarks.report import ACCURACY, write_section
 from benchmarks.sequences import Known, kept_back
-from core.agreement import cuts_of
-from core.parameters import Parameters
-from core.pipeline import cut
+from caesura.core.agreement import cuts_of
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import cut
 
 FIRST_SEED = 1301
 FIFTH = 0.2

@@ -7,8 +7,8 @@ import numpy as np
 from jaxtyping import Int
 
 from benchmarks.cmu import Annotation
-from core.agreement import cuts_of
-from core.segmentation import Segmentation
+from caesura.core.agreement import cuts_of
+from caesura.core.segmentation import Segmentation
 
 WIDTH, CURVE, BAR, GAP, LEFT = 960, 170, 26, 10, 70  # pixels
 COLOURS = ("#4477aa", "#ccbb44", "#ee6677", "#228833", "#66ccee", "#aa3377")  # Tol's bright scheme, colour-blind safe

@@ -13,17 +13,17 @@ from jaxtyping import Float, Int, UInt8
 from sklearn.cluster import KMeans
 
 from benchmarks.numpy_twin import twin
-from core.analysis import Analysis
-from core.front_door import open_animation
-from core.parameters import Parameters
-from core.pipeline import analyse, cut
-from core.poses import poses
-from core.switching.settling import settle
-from core.switching.signal import Windows
-from core.switching.stretches import Stretches
-from core.switching.weighed import CHANGE_SECONDS
-from samples.figures import figure
-from samples.take import Truth
+from caesura.api import open_animation
+from caesura.core.analysis import Analysis
+from caesura.core.methods.pose_features import poses
+from caesura.core.methods.switching.feature_weights import CHANGE_SECONDS
+from caesura.core.methods.switching.initial_segments import Stretches
+from caesura.core.methods.switching.switching_k_means import settle
+from caesura.core.methods.switching.windowed_signal import Windows
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import analyse, cut
+from caesura.samples.figures import figure
+from caesura.samples.take import Truth
 
 WIDTH, LEFT, BAR = 860, 150, 24  # pixels
 COLOURS = ("#4477aa", "#ccbb44", "#ee6677", "#228833", "#66ccee", "#aa3377")  # Tol's bright scheme, colour-blind safe

@@ -19,7 +19,7 @@ from sklearn.cluster import AgglomerativeClustering
 
 from benchmarks.detectors import DETECTORS
 from benchmarks.sequences import Known
-from core.agreement import cuts_of
+from caesura.core.agreement import cuts_of
 
 PEERS = tuple(DETECTORS)
 

@@ -16,11 +16,11 @@ from jaxtyping import Int
 
 from benchmarks.report import ACCURACY, write_section
 from benchmarks.sequences import Known, kept_back
-from core.agreement import cuts_of
-from core.parameters import Parameters
-from core.pipeline import cut
-from core.repetition.repeats import Repetitions, repeats
-from samples.figures import FIGURES, figure
+from caesura.core.agreement import cuts_of
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import cut
+from caesura.core.repetition.repetitions import Repetitions, repeats
+from caesura.samples.figures import FIGURES, figure
 
 FIRST_SEED = 901
 TOLERANCE_SECONDS = 0.5

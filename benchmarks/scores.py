@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Int
 
 from benchmarks.sequences import Known
-from core.agreement import adjusted_rand_index, boundary_scores, cuts_of, frame_accuracy, segment_f1
+from caesura.core.agreement import adjusted_rand_index, boundary_scores, cuts_of, frame_accuracy, segment_f1
 
 
 @dataclass(frozen=True)

@@ -15,11 +15,11 @@ from playwright.sync_api import Page, sync_playwright
 
 from benchmarks.processes import Watch, service
 from benchmarks.report import write_section
-from core.formats.header import read_header
-from core.limits import Limits
-from samples.session import long_session
-from service.commands.client import Client
-from service.commands.labelling import Labelling, agreement
+from caesura.core.limits import Limits
+from caesura.formats.header import read_header
+from caesura.samples.session import long_session
+from caesura.service.commands.client import Client
+from caesura.service.commands.labelling import Labelling, agreement
 
 DOCS = Path(__file__).resolve().parent.parent / "docs" / "performance.md"
 SCRUBS = 60

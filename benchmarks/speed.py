@@ -28,10 +28,10 @@ from benchmarks.report import write_section
 from benchmarks.skinned import Skinned
 from benchmarks.stopwatch import Cost, least
 from benchmarks.tube import Tube
-from core.blocks import blocks_of
-from core.keyframes import local_maxima
-from core.parameters import Parameters
-from core.pipeline import analyse, cut, segment
+from caesura.core.energy.key_frames import local_maxima
+from caesura.core.frames.blocks import blocks_of
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import analyse, cut, segment
 
 THREADS = 2
 DOCS = Path(__file__).parent.parent / "docs"

@@ -2,10 +2,10 @@
 
 from collections.abc import Iterable, Iterator
 
-from core.analysis import Analysis
-from core.parameters import Parameters
-from core.pipeline import cut
-from core.segmentation import Segmentation
+from caesura.core.analysis import Analysis
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import cut
+from caesura.core.segmentation import Segmentation
 
 
 def alternatives(

@@ -3,12 +3,12 @@
 import numpy as np
 from jaxtyping import Real
 
-from core.analysis import Analysis, Features
-from core.document import Source
-from core.errors import InvalidModel, ParameterError
-from core.parameters import Parameters
-from core.pipeline import cut
-from core.segmentation import Segmentation
+from caesura.core.analysis import Analysis, Features
+from caesura.core.document import Source
+from caesura.core.errors import InvalidModel, ParameterError
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import cut
+from caesura.core.segmentation import Segmentation
 
 NEEDS_VERTICES = frozenset({"joint-entropy"})
 """Methods of the energy curve, which is of a surface; there is none without vertices."""

@@ -2,7 +2,7 @@
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from core.errors import LimitExceeded
+from caesura.core.errors import LimitExceeded
 
 UNLIMITED = 2**62
 

@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from core.errors import ParameterError
+from caesura.core.errors import ParameterError
 
 ALGORITHM = "2"
 

@@ -3,22 +3,22 @@
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from core.analysis import Analysis
-from core.animation import Animation
-from core.basis import features
-from core.body import Body
-from core.document import Notice, Source
-from core.energy import energy_curve, window_frames
-from core.errors import InvalidModel
-from core.keyframes import local_maxima
-from core.methods import find_method
-from core.parameters import ALGORITHM, Parameters
-from core.peak_strain import peak_strain
-from core.progress import Progress, ignore
-from core.repetition.repeats import Repetitions, repeats
-from core.rest import rest_shape
-from core.segmentation import Segmentation, in_order_of_appearance
-from core.survey import Survey, survey
+from caesura.core.analysis import Analysis
+from caesura.core.animation import Animation
+from caesura.core.block_pass.features import features
+from caesura.core.block_pass.measured_body import Body
+from caesura.core.block_pass.rest_pose import rest_shape
+from caesura.core.block_pass.strain_at_peaks import peak_strain
+from caesura.core.block_pass.vertex_pass import Survey, survey
+from caesura.core.document import Notice, Source
+from caesura.core.energy.energy_curve import energy_curve, window_frames
+from caesura.core.energy.key_frames import local_maxima
+from caesura.core.errors import InvalidModel
+from caesura.core.methods import find_method
+from caesura.core.parameters import ALGORITHM, Parameters
+from caesura.core.progress import Progress, ignore
+from caesura.core.repetition.repetitions import Repetitions, repeats
+from caesura.core.segmentation import Segmentation, in_order_of_appearance
 
 CODES_BYTES = 128 * 2**20
 """Memory for the codes of strains; those of frames that do not fit are computed twice."""

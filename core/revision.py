@@ -9,8 +9,8 @@ from unicodedata import normalize
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from core.document import Interval, KeyFrame, Segment, SegmentationDocument, motion_name
-from core.errors import ParameterError
+from caesura.core.document import Interval, KeyFrame, Segment, SegmentationDocument, motion_name
+from caesura.core.errors import ParameterError
 
 LONGEST_NAME = 100
 JOINERS = "\u200c\u200d"

@@ -6,7 +6,16 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float, Int
 
-from core.document import Interval, KeyFrame, Notice, Score, Segment, SegmentationDocument, Source, motion_name
+from caesura.core.document import (
+    Interval,
+    KeyFrame,
+    Notice,
+    Score,
+    Segment,
+    SegmentationDocument,
+    Source,
+    motion_name,
+)
 
 
 @dataclass(frozen=True)

@@ -1,9 +1,9 @@
-"""`python -m service`: the web process alone. `caesura serve` starts Redis and workers beside it."""
+"""`python -m caesura.service`: the web process alone. `caesura serve` starts Redis and workers beside it."""
 
-from service.app import create_app
-from service.server import Server
-from service.settings import ServiceSettings
-from worker import logs
+from caesura.service.app import create_app
+from caesura.service.http.server import Server
+from caesura.service.settings import ServiceSettings
+from caesura.worker import logs
 
 
 def main() -> None:

@@ -7,17 +7,18 @@ from importlib.metadata import version
 from fastapi import Depends, FastAPI
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 
-from service import failures, openapi
-from service.backend import opened
-from service.body_limit import BodyLimit
-from service.guard import Guard
-from service.headroom import Headroom, room
-from service.metrics import Metrics
-from service.queries import only_known
-from service.request_log import RequestLog
-from service.routes import about, animations, clips, health, pages, results, revisions, segmentations, session
-from service.security import SecurityHeaders
-from service.settings import ServiceSettings
+from caesura.service.api_description import openapi
+from caesura.service.auth.middleware import Guard
+from caesura.service.backend import opened
+from caesura.service.http.query_names import only_known
+from caesura.service.http.security_headers import SecurityHeaders
+from caesura.service.metrics import Metrics
+from caesura.service.problems import exception_handlers
+from caesura.service.request_log import RequestLog
+from caesura.service.routes import about, animations, clips, health, pages, results, revisions, segmentations, session
+from caesura.service.settings import ServiceSettings
+from caesura.service.uploads.body_limit import BodyLimit
+from caesura.service.uploads.capacity import Headroom, room
 
 FILES = ("application/octet-stream", "application/x-npz", "application/zip", "model/*")
 """Served by Range, or packed already: a compressed form would be another file."""
@@ -43,7 +44,7 @@ def create_app(settings: ServiceSettings) -> FastAPI:
     )
     app.state.headroom = Headroom()
     app.state.metrics = Metrics()
-    failures.install(app)
+    exception_handlers.install(app)
     for routes in (animations, segmentations, results, revisions, clips, session, about, health):
         app.include_router(routes.router, dependencies=[Depends(only_known), Depends(room)])
     app.include_router(pages.router)

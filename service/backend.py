@@ -12,19 +12,19 @@ from anyio import CancelScope, move_on_after, to_thread
 from fastapi import Depends, Request
 from redis.exceptions import RedisError
 
-from service.errors import Refusal
-from service.key_file import KeyFile
-from service.seats import Seats
-from service.settings import ServiceSettings
-from worker import ids
-from worker.async_records import AsyncRecords
-from worker.blobs import Blobs
-from worker.connection import connect
-from worker.jobs import Jobs
-from worker.layout import check_layout
-from worker.leftovers import clear
-from worker.private_folder import make_private
-from worker.schema import AnimationRecord, SegmentationRecord
+from caesura.service.api_keys.key_file import KeyFile
+from caesura.service.http.stream_limit import Seats
+from caesura.service.problems.status_table import Refusal
+from caesura.service.settings import ServiceSettings
+from caesura.worker.private_folder import make_private
+from caesura.worker.queue.jobs import Jobs
+from caesura.worker.records import content_ids
+from caesura.worker.records.async_records import AsyncRecords
+from caesura.worker.records.connection import connect
+from caesura.worker.records.layout_version import check_layout
+from caesura.worker.records.schema import AnimationRecord, SegmentationRecord
+from caesura.worker.store.blobs import Blobs
+from caesura.worker.store.temporary_files import clear
 
 
 @dataclass
@@ -42,7 +42,7 @@ class Backend:
     @cached_property
     def secret(self) -> bytes:
         """The key of all ids. Blocks at first use: Redis need not be up when the process starts."""
-        return ids.installation_secret(self.jobs.redis, self.settings.secret)
+        return content_ids.installation_secret(self.jobs.redis, self.settings.secret)
 
     @property
     def spool(self) -> Path:

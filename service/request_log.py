@@ -9,8 +9,8 @@ import time
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from service.metrics import Metrics
-from worker import logs
+from caesura.service.metrics import Metrics
+from caesura.worker import logs
 
 log = logging.getLogger("service.requests")
 

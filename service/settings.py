@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from worker.settings import WorkerSettings
+from caesura.worker.settings import WorkerSettings
 
 REQUESTS_A_MINUTE = 1200
 """Where keys are needed and nothing else is said: twenty a second, more than the page asks for while it plays."""

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from samples.figures import figure
-from service.commands.local_service import local_service
+from caesura.samples.figures import figure
+from caesura.service.commands.local_service import local_service
 
 FRAMES = 300
 CUT = 150

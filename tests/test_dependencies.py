@@ -17,7 +17,7 @@ from packaging.utils import canonicalize_name
 
 from tests.installation import take_npz
 
-OWN = {"benchmarks", "core", "samples", "service", "tests", "tools", "worker"}
+OWN = {"benchmarks", "caesura", "tests", "tools"}
 PROVIDERS = packages_distributions()
 
 
@@ -51,7 +51,7 @@ def imported(files: Iterable[Path]) -> Iterator[tuple[Path, str]]:
 @pytest.mark.parametrize(
     ("folders", "parts"),
     [
-        (["core", "samples"], []),
+        (["core", "formats", "samples"], []),
         (["service", "worker"], ["service"]),
         (["benchmarks", "tests", "tools", "docs/examples"], ["service", "assets", "build", "fuzz", "test"]),
     ],

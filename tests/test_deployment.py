@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 import yaml
 
-from service.cli import main
-from service.settings import ServiceSettings
+from caesura.service.commands.cli import main
+from caesura.service.settings import ServiceSettings
+from caesura.worker.queue.queues import QUEUES
 from tests.test_settings_table import variable
-from worker.queues import QUEUES
 
 USER = 10001
 

@@ -11,9 +11,9 @@ import httpx
 import pytest
 import redis
 
+from caesura.worker.embedded_redis.server import find_program
 from tests.installation import SLOWLY, take_npz
 from tests.object_store import BUCKET, ObjectStore, free_port
-from worker.redis_server import find_program
 
 WAIT_SECONDS = 90
 

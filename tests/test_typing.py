@@ -4,7 +4,7 @@ import jaxtyping
 import numpy as np
 import pytest
 
-from core.segmentation import in_order_of_appearance
+from caesura.core.segmentation import in_order_of_appearance
 
 
 def test_a_wrong_shape_is_refused() -> None:

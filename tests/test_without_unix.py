@@ -4,7 +4,7 @@ import json
 import subprocess
 import sys
 
-from service.commands.outputs import FORMS
+from caesura.service.commands.outputs import FORMS
 from tests.installation import take_npz
 
 MISSING_MODULES = ("fcntl", "resource", "pwd", "grp", "termios", "pty", "syslog")

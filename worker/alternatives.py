@@ -15,10 +15,9 @@ from sys import byteorder
 from redis import WatchError
 from redis.client import Pipeline
 
-from core.document import Segment, SegmentationDocument
-from worker import keys
-from worker.records import Records
-from worker.schema import SegmentationRecord
+from caesura.core.document import Segment, SegmentationDocument
+from caesura.worker.records import Records, redis_keys
+from caesura.worker.records.schema import SegmentationRecord
 
 
 def add_alternative(records: Records, identifier: str, document: SegmentationDocument) -> bool:
@@ -27,11 +26,11 @@ def add_alternative(records: Records, identifier: str, document: SegmentationDoc
     asked = str(document.parameters["motions"])
     with records.redis.pipeline() as pipe:
         while True:
-            pipe.watch(keys.segmentation_key(identifier))
-            if not pipe.exists(keys.segmentation_key(identifier)):
+            pipe.watch(redis_keys.segmentation_key(identifier))
+            if not pipe.exists(redis_keys.segmentation_key(identifier)):
                 return False
             pipe.multi()
-            pipe.hset(keys.alternatives_key(identifier), asked, zlib.compress(shown.encode()))
+            pipe.hset(redis_keys.alternatives_key(identifier), asked, zlib.compress(shown.encode()))
             try:
                 pipe.execute()
             except WatchError:
@@ -44,7 +43,7 @@ def recall(records: Records, wanted: SegmentationRecord, beside: str) -> Segment
 
     None too where it was asked for before: then it is as it is.
     """
-    stored = records.redis.hget(keys.alternatives_key(beside), str(wanted.parameters["motions"]))
+    stored = records.redis.hget(redis_keys.alternatives_key(beside), str(wanted.parameters["motions"]))
     result = records.segmentations.one(beside)
     whole, energy, _ = records.segmentations.result(beside) if isinstance(stored, bytes) else (None, None, None)
     if not isinstance(stored, bytes) or result is None or whole is None or energy is None:
@@ -68,10 +67,10 @@ def recall(records: Records, wanted: SegmentationRecord, beside: str) -> Segment
         )
 
     def also(pipe: Pipeline, _: SegmentationRecord) -> None:
-        pipe.set(keys.segmentation_key(wanted.id, "document"), document)
-        pipe.set(keys.segmentation_key(wanted.id, "energy"), energy)
-        pipe.set(keys.segmentation_key(wanted.id, "labels"), labels_of(alternative.segments))
-        pipe.zadd(keys.USED_KEY, {wanted.animation: time.time()}, xx=True)
+        pipe.set(redis_keys.segmentation_key(wanted.id, "document"), document)
+        pipe.set(redis_keys.segmentation_key(wanted.id, "energy"), energy)
+        pipe.set(redis_keys.segmentation_key(wanted.id, "labels"), labels_of(alternative.segments))
+        pipe.zadd(redis_keys.USED_KEY, {wanted.animation: time.time()}, xx=True)
 
     return records.segmentations.change(wanted.id, change, also, new=wanted)
 

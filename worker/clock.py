@@ -9,7 +9,7 @@ from datetime import UTC, datetime
 
 from redis import Redis
 
-from worker import keys
+from caesura.worker.records import redis_keys
 
 log = logging.getLogger(__name__)
 
@@ -23,13 +23,13 @@ def gone_evenly(client: Redis, longest_gap: float, now: float) -> bool:
 
     The first look is compared with the last use of anything. Where the answer is no, the log says why and until when.
     """
-    kept = client.hgetall(keys.CLOCK_KEY)
-    newest = client.zrange(keys.USED_KEY, -1, -1, withscores=True)
+    kept = client.hgetall(redis_keys.CLOCK_KEY)
+    newest = client.zrange(redis_keys.USED_KEY, -1, -1, withscores=True)
     last = float(kept[b"last"]) if kept else float(newest[0][1]) if newest else now
     since = float(kept.get(b"since", 0.0))
     if not -SKEW_SECONDS <= now - last <= longest_gap:
         since = now
-    client.hset(keys.CLOCK_KEY, mapping={"last": repr(now), "since": repr(since)})
+    client.hset(redis_keys.CLOCK_KEY, mapping={"last": repr(now), "since": repr(since)})
     if now - since >= EVEN_SECONDS:
         return True
     until = datetime.fromtimestamp(since + EVEN_SECONDS, UTC)

@@ -14,7 +14,7 @@ from contextvars import ContextVar
 from datetime import UTC, datetime
 from typing import Literal
 
-from core.control_characters import escape_control_characters
+from caesura.core.control_characters import escape_control_characters
 
 Form = Literal["text", "json"]
 

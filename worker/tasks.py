@@ -3,25 +3,26 @@
 import time
 from contextlib import suppress
 
-from core.alternatives import alternatives
-from core.analysis import Analysis
-from core.document import SegmentationDocument
-from core.formats.playback.play import playback
-from core.formats.read import read_animation
-from core.parameters import Parameters
-from core.pipeline import analyse, cut
-from worker import exports, ids
-from worker.allowance import Allowance
-from worker.alternatives import add_alternative
-from worker.attempt import Attempt, Superseded, carry_out
-from worker.blobs import BlobMissing, Blobs
-from worker.cpu import available_threads
-from worker.errands import submit_alternatives
-from worker.mapping import mapped_parts, scratch_space
-from worker.place import place, stored_analysis
-from worker.retention import sweep_by_clock
-from worker.schema import AnalysisRecord, AnimationRecord, ViewerRecord
-from worker.warming import rehearse
+from caesura.core.alternatives import alternatives
+from caesura.core.analysis import Analysis
+from caesura.core.document import SegmentationDocument
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import analyse, cut
+from caesura.formats.playback.playback_files import playback
+from caesura.formats.read import read_animation
+from caesura.worker import result_files
+from caesura.worker.alternatives import add_alternative
+from caesura.worker.process.job_quota import Allowance
+from caesura.worker.process.thread_count import available_threads
+from caesura.worker.process.warm_up import rehearse
+from caesura.worker.process.worker_context import place, stored_analysis
+from caesura.worker.queue.attempt import Attempt, Superseded, carry_out
+from caesura.worker.queue.auxiliary_jobs import submit_alternatives
+from caesura.worker.records import content_ids
+from caesura.worker.records.schema import AnalysisRecord, AnimationRecord, ViewerRecord
+from caesura.worker.retention.retention import sweep_by_clock
+from caesura.worker.store.blobs import BlobMissing, Blobs
+from caesura.worker.store.memory_maps import mapped_parts, scratch_space
 
 DAY = 24 * 3600.0
 
@@ -61,7 +62,7 @@ def run_alternatives(identifier: str) -> None:
 def run_export(identifier: str, form: str) -> None:
     """A file made of a result, for the web process has no arrays."""
     here = place()
-    exports.run(here.jobs.records, here.blobs, here.settings, identifier, form)
+    result_files.run(here.jobs.records, here.blobs, here.settings, identifier, form)
 
 
 def run_sweep() -> None:
@@ -73,7 +74,7 @@ def run_sweep() -> None:
 def _analyse(attempt: Attempt) -> None:
     record, parameters = attempt.record, attempt.record.chosen()
     settings, blobs = place().settings, place().blobs
-    digest = ids.heavy_digest(parameters.heavy(), record.algorithm)
+    digest = content_ids.heavy_digest(parameters.heavy(), record.algorithm)
     threads = settings.threads or available_threads()
     uploaded = _animation(attempt)
     allowance = Allowance(settings.job_memory_bytes, settings.job_seconds * threads)
@@ -106,7 +107,7 @@ def _keep(attempt: Attempt, blobs: Blobs, digest: str, made: AnalysisRecord) -> 
 
 def _cut(attempt: Attempt) -> None:
     record, parameters, settings = attempt.record, attempt.record.chosen(), place().settings
-    digest = ids.heavy_digest(parameters.heavy(), record.algorithm)
+    digest = content_ids.heavy_digest(parameters.heavy(), record.algorithm)
     Allowance(settings.job_memory_bytes, settings.job_seconds)
     stored = attempt.records.analyses.one(record.animation, digest)
     if stored is not None:

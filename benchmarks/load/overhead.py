@@ -6,14 +6,14 @@ from itertools import chain
 from benchmarks.load.calls import Calls
 from benchmarks.load.measure import Measure, percentile
 from benchmarks.load.takes import different
-from core.formats.playback.play import playback
-from core.formats.read import read_animation
-from core.limits import Limits
-from core.parameters import Parameters
-from core.pipeline import analyse, cut
-from samples.figures import figure
-from worker.cpu import available_threads
-from worker.warming import warm
+from caesura.core.limits import Limits
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import analyse, cut
+from caesura.formats.playback.playback_files import playback
+from caesura.formats.read import read_animation
+from caesura.samples.figures import figure
+from caesura.worker.process.thread_count import available_threads
+from caesura.worker.process.warm_up import warm
 
 TURNS = 15
 MOTIONS = 4

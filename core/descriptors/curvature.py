@@ -16,10 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32
 
-from core.descriptors.strain import ROUNDING
-from core.mesh.angles import AngleDefect, Folding, Rows, Totals
-from core.mesh.edges import hinges
-from core.mesh.mesh import Mesh
+from caesura.core.descriptors.strain import ROUNDING
+from caesura.core.mesh.angles import AngleDefect, Folding, Rows, Totals
+from caesura.core.mesh.edges import hinges
+from caesura.core.mesh.mesh import Mesh
 
 
 @dataclass(frozen=True)

@@ -16,10 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32, Float64, Int, Int32
 
-from core.descriptors.strain import ROUNDING
-from core.mesh import kernels
-from core.mesh.mesh import Mesh
-from core.mesh.net import Net
+from caesura.core.descriptors.strain import ROUNDING
+from caesura.core.kernels import mesh_edges
+from caesura.core.mesh.edge_graph import Net
+from caesura.core.mesh.mesh import Mesh
 
 SOURCES = 16
 """Sources on every piece. The change of their average follows that of all points: a test says how closely."""
@@ -116,11 +116,11 @@ def _average(
     net: Net, sources: tuple[Source, ...], rows: Float32[np.ndarray, "P 3 frames"]
 ) -> Float32[np.ndarray, "P frames"]:
     lengths = np.empty((len(net.edges), rows.shape[2]), np.float32)
-    kernels.edge_lengths(rows, net.edges, lengths)
+    mesh_edges.edge_lengths(rows, net.edges, lengths)
     average, distance = np.zeros((2, len(rows), rows.shape[2]), np.float32)
     for source in sources:
         distance.fill(np.inf)
         distance[source.seeds] = 0
-        kernels.shortest_paths(source.order, net.start, net.beside, net.edge, lengths, distance)
+        mesh_edges.shortest_paths(source.order, net.start, net.beside, net.edge, lengths, distance)
         average += source.share[:, None] * distance
     return average

@@ -19,11 +19,11 @@ import numpy as np
 from jaxtyping import Float32, Float64, Int
 from scipy.linalg import eigh
 
-from core.descriptors.strain import ROUNDING
-from core.errors import LimitExceeded
-from core.mesh.edges import edges_of, pieces
-from core.mesh.laplacian import Laplacian
-from core.mesh.mesh import Mesh
+from caesura.core.descriptors.strain import ROUNDING
+from caesura.core.errors import LimitExceeded
+from caesura.core.mesh.edges import edges_of, pieces
+from caesura.core.mesh.laplacian import Laplacian
+from caesura.core.mesh.mesh import Mesh
 
 MODES = 32
 """Eigenfunctions of a piece. exp(−λ t) of the last one is 1e-4 at the shortest time: the rest would add nothing."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32, Float64, Int, Int32
 
-from core.descriptors import kernels
+from caesura.core.kernels import descriptors
 
 
 @dataclass(frozen=True)
@@ -35,4 +35,4 @@ class PatchMeans:
     ) -> None:
         """Add the columns of a tile to the means; nothing where there are no patches."""
         if self.patches:
-            kernels.add_weighted(tile, self.weight[columns], self.patch[columns], means)
+            descriptors.add_weighted(tile, self.weight[columns], self.patch[columns], means)

@@ -14,10 +14,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float, Float32, Float64, Int
 
-from core.descriptors import kernels
-from core.descriptors.kernels import WIDTH
+from caesura.core.kernels import descriptors
+from caesura.core.kernels.descriptors import WIDTH
 
-MEASURES = {"log": kernels.LOG, "biot": kernels.BIOT, "max": kernels.MAX}
+MEASURES = {"log": descriptors.LOG, "biot": descriptors.BIOT, "max": descriptors.MAX}
 """`log`: sqrt(ln²σ1 + ln²σ2) (Hencky); `biot`: sqrt((σ1−1)² + (σ2−1)²); `max`: max(|σ1−1|, |σ2−1|). σ = sqrt(λ)."""
 
 TILE = 1024
@@ -95,10 +95,10 @@ class TriangleStrain:
             own, out, pieces = rows[: len(part.members)], tile[: len(part.corners)], []
             for start in range(0, len(block), WIDTH):
                 width = min(len(block) - start, WIDTH)
-                kernels.gather(block[start : start + width], part.members, own)
+                descriptors.gather(block[start : start + width], part.members, own)
                 own[:, :, width:] = own[:, :, width - 1 : width]  # frames that are not there repeat the last
                 lines, factors = own.reshape(-1, 3 * WIDTH), scale[start : start + WIDTH]
-                kernels.strain_tile(lines, part.corners, part.shapes, factors, self.measure, out)
+                descriptors.strain_tile(lines, part.corners, part.shapes, factors, self.measure, out)
                 if len(block) != WIDTH:
                     pieces.append(out[:, :width].copy())
             yield slice(number * TILE, number * TILE + len(out)), np.concatenate(pieces, axis=1) if pieces else out
@@ -127,8 +127,8 @@ class TriangleStrain:
         twice = np.zeros(len(block), np.float64)
         for part in self.parts:
             rows = np.empty((len(part.members), 3, len(block)), np.float32)
-            kernels.gather(block, part.members, rows)
-            kernels.add_areas(rows, part.corners, twice)
+            descriptors.gather(block, part.members, rows)
+            descriptors.add_areas(rows, part.corners, twice)
         smallest = np.finfo(np.float32).tiny * self.areas.sum()
         return np.asarray(np.minimum(2 * self.areas.sum() / np.maximum(twice, smallest), 1e12), np.float32)
 

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32, Float64, Int
 
-from core.descriptors import kernels
-from core.descriptors.strain import TILE
-from core.mesh.edges import edges_of
-from core.mesh.mesh import Mesh
+from caesura.core.descriptors.strain import TILE
+from caesura.core.kernels import descriptors
+from caesura.core.mesh.edges import edges_of
+from caesura.core.mesh.mesh import Mesh
 
 Rows = Float32[np.ndarray, "P 3 frames"]
 Totals = Float32[np.ndarray, "P frames"]
@@ -87,7 +87,7 @@ class Folding:
 
 def _add(values: Float32[np.ndarray, "n frames"], points: Int[np.ndarray, "n"], totals: Totals) -> None:
     ones = np.ones(len(values), np.float32)
-    kernels.add_weighted(values, ones, points.astype(np.int32), totals)
+    descriptors.add_weighted(values, ones, points.astype(np.int32), totals)
 
 
 def _dot(u: Float32[np.ndarray, "n 3 frames"], v: Float32[np.ndarray, "n 3 frames"]) -> np.ndarray:

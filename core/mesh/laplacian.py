@@ -8,7 +8,7 @@ from scipy.linalg import eigh
 from scipy.sparse import csr_array, diags_array
 from scipy.sparse.linalg import eigsh
 
-from core.mesh.edges import edges_of
+from caesura.core.mesh.edges import edges_of
 
 DENSE = 400
 """Points below which all eigenfunctions at once are quicker than the first few."""

@@ -7,10 +7,10 @@ surface in such pieces has no neighbours, no geodesics and no curvature until th
 import numpy as np
 from jaxtyping import Float32, Int
 
-from core.animation import Animation
-from core.descriptors.projection import sample_frames
-from core.descriptors.strain import ROUNDING
-from core.drawing import draw_frames
+from caesura.core.animation import Animation
+from caesura.core.block_pass.projection import sample_frames
+from caesura.core.descriptors.strain import ROUNDING
+from caesura.core.frames.sampled_frames import draw_frames
 
 LOOKS = 8
 """Frames looked at to see whether copies move together."""

@@ -7,9 +7,9 @@ scikit-learn, which takes a second to load, and the default does not.
 from collections.abc import Callable
 from importlib import import_module
 
-from core.analysis import Analysis
-from core.parameters import Parameters
-from core.segmentation import Cut
+from caesura.core.analysis import Analysis
+from caesura.core.parameters import Parameters
+from caesura.core.segmentation import Cut
 
 METHODS = ("switching", "joint-entropy", "luo2014", "spectral", "aca", "haca")
 
@@ -17,5 +17,5 @@ METHODS = ("switching", "joint-entropy", "luo2014", "spectral", "aca", "haca")
 def find_method(name: str) -> Callable[[Analysis, Parameters], Cut]:
     """The function of one of `METHODS`."""
     name = name.replace("-", "_")
-    found: Callable[[Analysis, Parameters], Cut] = getattr(import_module(f"core.methods.{name}"), name)
+    found: Callable[[Analysis, Parameters], Cut] = getattr(import_module(f"caesura.core.methods.{name}"), name)
     return found

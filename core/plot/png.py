@@ -4,8 +4,8 @@ import io
 
 from PIL import Image, ImageDraw
 
-from core.plot.lettering import Lettering, Written
-from core.plot.picture import TEXT, Box, Dot, Label, Line, Picture, Point
+from caesura.core.plot.font import Lettering, Written
+from caesura.core.plot.picture import TEXT, Box, Dot, Label, Line, Picture, Point
 
 SCALE = 2
 """Pixels of the PNG for each of the picture: it is to be printed."""

@@ -3,7 +3,7 @@
 import re
 from xml.sax.saxutils import escape
 
-from core.plot.picture import TEXT, Box, Dot, Label, Line, Picture
+from caesura.core.plot.picture import TEXT, Box, Dot, Label, Line, Picture
 
 FORBIDDEN = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """What XML 1.0 has no way to write."""

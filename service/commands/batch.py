@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from core.control_characters import escape_control_characters
-from core.document import SegmentationDocument
-from core.errors import CaesuraError
-from service.commands.problems import exit_code
+from caesura.core.control_characters import escape_control_characters
+from caesura.core.document import SegmentationDocument
+from caesura.core.errors import CaesuraError
+from caesura.service.commands.problems import exit_code
 
 BUG = 1
 """The exit code where a file brought a fault of ours to light."""

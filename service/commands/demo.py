@@ -7,11 +7,11 @@ from itertools import zip_longest
 
 import click
 
-from core.control_characters import escape_control_characters
-from core.document import Segment, SegmentationDocument
-from service.commands.labelling import Labelling, agreement
-from service.commands.problems import Command
-from service.commands.progress_bar import ProgressBar
+from caesura.core.control_characters import escape_control_characters
+from caesura.core.document import Segment, SegmentationDocument
+from caesura.service.commands.labelling import Labelling, agreement
+from caesura.service.commands.problems import Command
+from caesura.service.commands.progress_bar import ProgressBar
 
 GOOD_ACCURACY = 0.95
 
@@ -27,7 +27,7 @@ def demo(context: click.Context, /, once: bool, port: int, url: str | None) -> N
     The figures are made here, motion by motion, so their truth is known exactly. Everything goes through the
     service's API, as any other client would. The exit code is 1 where a figure's frame accuracy is below 0.95.
     """
-    from service.commands.local_service import local_service
+    from caesura.service.commands.local_service import local_service
 
     if url:
         accuracy = _demonstrate(url)
@@ -44,8 +44,8 @@ def demo(context: click.Context, /, once: bool, port: int, url: str | None) -> N
 
 def _demonstrate(url: str) -> float:
     """Upload, wait, compare and print, for each figure; the lowest frame accuracy."""
-    from samples.figures import FIGURES, figure
-    from service.commands.client import Client
+    from caesura.samples.figures import FIGURES, figure
+    from caesura.service.commands.client import Client
 
     accuracies = []
     with Client(url) as client:

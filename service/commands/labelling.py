@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from core.errors import InvalidModel
+from caesura.core.errors import InvalidModel
 
 TOLERANCES_SECONDS = (0.5, 0.15)
 MAX_FRAMES = 10**9
@@ -66,7 +66,7 @@ def agreement(found: Labelling, truth: Labelling) -> dict[str, float]:
 
     import numpy as np
 
-    from core.agreement import adjusted_rand_index, boundary_scores, frame_accuracy
+    from caesura.core.agreement import adjusted_rand_index, boundary_scores, frame_accuracy
 
     ends = np.unique([end for of in (found, truth) for _, end, _ in of.segments])
     lengths = np.diff(ends, prepend=0)

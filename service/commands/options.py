@@ -1,4 +1,4 @@
-"""Every parameter of the method as an option, made from `core.parameters`: one spelling, one description."""
+"""Every parameter of the method as an option, made from `caesura.core.parameters`: one spelling, one description."""
 
 from collections.abc import Callable
 from typing import Annotated, Any, get_args, get_origin
@@ -6,8 +6,8 @@ from typing import Annotated, Any, get_args, get_origin
 import click
 from pydantic.fields import FieldInfo
 
-from core.formats.clips.options import ClipOptions
-from core.parameters import Parameters
+from caesura.core.parameters import Parameters
+from caesura.formats.clips.clip_options import ClipOptions
 
 
 def parameters(function: Callable[..., Any]) -> Callable[..., Any]:

@@ -8,12 +8,12 @@ from typing import Any
 
 import click
 
-from core.document import SegmentationDocument
-from core.errors import CaesuraError
-from core.formats.clips.options import ClipOptions
-from service.commands.buffers import scratch
-from service.elan import segments_eaf
-from service.exports import frames_csv, plot_svg, segments_csv, segments_vtt
+from caesura.core.document import SegmentationDocument
+from caesura.core.errors import CaesuraError
+from caesura.formats.clips.clip_options import ClipOptions
+from caesura.service.commands.buffers import scratch
+from caesura.service.results.elan import segments_eaf
+from caesura.service.results.text_formats import frames_csv, plot_svg, segments_csv, segments_vtt
 
 Parts = Mapping[str, memoryview]
 Write = Callable[[Parts, SegmentationDocument, ClipOptions], tuple[str, Iterator[bytes]]]
@@ -28,21 +28,21 @@ def _text(suffix: str, written: Callable[[SegmentationDocument], str]) -> Write:
 
 
 def _clips(parts: Parts, found: SegmentationDocument, options: ClipOptions) -> tuple[str, Iterator[bytes]]:
-    from core.formats.clips.write import GLB, write_clips
+    from caesura.formats.clips.write import GLB, write_clips
 
     written = write_clips(parts, found, options, scratch)
     return ".clips.glb" if written.media_type == GLB else ".clips.zip", written.pieces
 
 
 def _key_poses(parts: Parts, found: SegmentationDocument, _: ClipOptions) -> tuple[str, Iterator[bytes]]:
-    from core.formats.clips.write import write_key_poses
+    from caesura.formats.clips.write import write_key_poses
 
     return ".keyframes.glb", write_key_poses(parts, found, scratch).pieces
 
 
 def _plot_png(_parts: Parts, found: SegmentationDocument, _options: ClipOptions) -> tuple[str, Iterator[bytes]]:
-    from core.plot.layout import picture_of
-    from core.plot.png import png
+    from caesura.core.plot.layout import picture_of
+    from caesura.core.plot.png import png
 
     font = os.environ.get("CAESURA_FONT")
     return ".png", iter([png(picture_of(found), Path(font).read_bytes() if font else None)])

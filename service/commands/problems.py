@@ -7,8 +7,8 @@ from typing import Any
 
 import click
 
-from core.control_characters import escape_control_characters
-from core.errors import KINDS, CaesuraError, InputError
+from caesura.core.control_characters import escape_control_characters
+from caesura.core.errors import KINDS, CaesuraError, InputError
 
 USAGE = 2
 BAD_FILE = 3

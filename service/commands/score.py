@@ -5,8 +5,8 @@ from pathlib import Path
 
 import click
 
-from service.commands.labelling import Labelling, agreement
-from service.commands.problems import Command
+from caesura.service.commands.labelling import Labelling, agreement
+from caesura.service.commands.problems import Command
 
 
 @click.command(cls=Command)

@@ -6,17 +6,17 @@ from typing import Any
 
 import click
 
-from core.document import SegmentationDocument
-from core.limits import Limits
-from core.parameters import Parameters
-from service.commands import options
-from service.commands.batch import Batch
-from service.commands.buffers import mapped, scratch
-from service.commands.files import Files, targets
-from service.commands.outputs import Outputs, outputs
-from service.commands.problems import Command, show
-from service.commands.progress_bar import ProgressBar
-from service.commands.table import table
+from caesura.core.document import SegmentationDocument
+from caesura.core.limits import Limits
+from caesura.core.parameters import Parameters
+from caesura.service.commands import options
+from caesura.service.commands.batch import Batch
+from caesura.service.commands.buffers import mapped, scratch
+from caesura.service.commands.files import Files, targets
+from caesura.service.commands.outputs import Outputs, outputs
+from caesura.service.commands.problems import Command, show
+from caesura.service.commands.progress_bar import ProgressBar
+from caesura.service.commands.table import table
 
 FOLDER = click.Path(file_okay=False, path_type=Path)
 
@@ -76,13 +76,13 @@ def _targets(animations: list[Path], out: Path | None) -> list[Path] | list[None
 
 def _found(parts: Mapping[str, memoryview], parameters: Parameters, threads: int | None) -> SegmentationDocument:
     """Read, analyse and cut one animation. What is heavy is imported here, and what computes only for a good file."""
-    from core.formats.read import read_animation
+    from caesura.formats.read import read_animation
 
     with ProgressBar() as progress:
         progress("reading", 0.0)
         animation = read_animation(parts, parameters, Limits.none(), scratch)
 
-        from core.pipeline import segment as motions_of
-        from worker.cpu import available_threads
+        from caesura.core.pipeline import segment as motions_of
+        from caesura.worker.process.thread_count import available_threads
 
         return motions_of(animation, parameters, threads=threads or available_threads(), progress=progress).document()

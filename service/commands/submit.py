@@ -5,11 +5,11 @@ from typing import Any
 
 import click
 
-from core.parameters import Parameters
-from service.commands import options
-from service.commands.problems import Command
-from service.commands.progress_bar import ProgressBar
-from service.commands.table import table
+from caesura.core.parameters import Parameters
+from caesura.service.commands import options
+from caesura.service.commands.problems import Command
+from caesura.service.commands.progress_bar import ProgressBar
+from caesura.service.commands.table import table
 
 DEFAULT_URL = "http://127.0.0.1:8000"
 
@@ -22,7 +22,7 @@ DEFAULT_URL = "http://127.0.0.1:8000"
 @click.option("--json", "as_json", is_flag=True, help="Print the segmentation document.")
 def submit(file: Path, url: str, key: str, as_json: bool, **given: Any) -> None:
     """Send FILE to a running service, wait, and print what `caesura segment` would print."""
-    from service.commands.client import Client
+    from caesura.service.commands.client import Client
 
     chosen = options.given(given)
     Parameters.parse(chosen)  # refused here, before a long upload

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-from core.control_characters import escape_control_characters
-from core.document import SegmentationDocument
+from caesura.core.control_characters import escape_control_characters
+from caesura.core.document import SegmentationDocument
 
 
 def table(name: str, found: SegmentationDocument) -> str:

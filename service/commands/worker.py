@@ -2,7 +2,7 @@
 
 import click
 
-from service.commands.problems import Command
+from caesura.service.commands.problems import Command
 
 
 @click.command(cls=Command)
@@ -14,7 +14,7 @@ def worker(queues: tuple[str, ...], check: bool) -> None:
     Without --queues: one worker for `analyse` and `cut`, and one for `cut` alone, so that a new number of motions
     never waits behind a long take.
     """
-    from worker.__main__ import main
+    from caesura.worker.__main__ import main
 
     chosen = [word for names in queues for word in ("--queues", names)]
     main([*chosen, *(["--check"] if check else [])])

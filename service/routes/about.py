@@ -3,11 +3,11 @@
 from fastapi import APIRouter, Response
 from pydantic import BaseModel
 
-from core.limits import Limits
-from core.parameters import ALGORITHM, Parameters
-from service.answers import answer
-from service.backend import Behind
-from service.methods import MethodDocument, methods
+from caesura.core.limits import Limits
+from caesura.core.parameters import ALGORITHM, Parameters
+from caesura.service.api_description.method_schemas import MethodDocument, methods
+from caesura.service.backend import Behind
+from caesura.service.segmentations.status_response import answer
 
 router = APIRouter(prefix="/v1", tags=["about"])
 

@@ -5,18 +5,18 @@ from typing import Annotated
 from anyio import to_thread
 from fastapi import APIRouter, Query, Request, Response
 
-from service.access import Owner
-from service.answers import answer
-from service.backend import Backend, Behind
-from service.descriptions import FILE, FILE_BODY
-from service.documents import AnimationDocument, AnimationPage, AnimationSummary
-from service.errors import Refusal
-from service.intake import keep
-from service.paging import Cursor, Limit, created_before, cursor_of
-from service.ranges import Stored, stored_response
-from service.uploads import received
-from worker.forgetting import forget_animation
-from worker.schema import AnimationRecord
+from caesura.service.api_description.descriptions import FILE, FILE_BODY
+from caesura.service.auth.request_owner import Owner
+from caesura.service.backend import Backend, Behind
+from caesura.service.documents import AnimationDocument, AnimationPage, AnimationSummary
+from caesura.service.http.paging import Cursor, Limit, created_before, cursor_of
+from caesura.service.problems.status_table import Refusal
+from caesura.service.results.byte_ranges import Stored, stored_response
+from caesura.service.segmentations.status_response import answer
+from caesura.service.uploads.registration import keep
+from caesura.service.uploads.upload_body import received
+from caesura.worker.records.schema import AnimationRecord
+from caesura.worker.retention.deletion import forget_animation
 
 MEDIA_TYPES = {
     "glb": "model/gltf-binary",

@@ -7,14 +7,14 @@ from typing import Annotated
 from fastapi import APIRouter, Query, Request, Response
 from pydantic import Field
 
-from core.formats.clips.options import ClipOptions
-from service.access import Owner
-from service.backend import Backend, Behind
-from service.descriptions import CLIPS, KEY_POSES
-from service.errors import Refusal
-from service.preferences import wait_seconds
-from service.results import made_file, unfinished
-from service.revisions import WHICH, Revision, number_of
+from caesura.formats.clips.clip_options import ClipOptions
+from caesura.service.api_description.descriptions import CLIPS, KEY_POSES
+from caesura.service.auth.request_owner import Owner
+from caesura.service.backend import Backend, Behind
+from caesura.service.http.prefer_header import wait_seconds
+from caesura.service.problems.status_table import Refusal
+from caesura.service.results.result_response import made_file, unfinished
+from caesura.service.results.revision_request import WHICH, Revision, number_of
 
 
 class ClipQuery(ClipOptions):

@@ -5,10 +5,10 @@ from fastapi import APIRouter, Request, Response
 from fastapi.responses import JSONResponse, PlainTextResponse
 from prometheus_client import CONTENT_TYPE_LATEST
 
-from service.backend import Behind
-from service.errors import Refusal
-from service.headroom import idle, looked
-from service.metrics import Metrics
+from caesura.service.backend import Behind
+from caesura.service.metrics import Metrics
+from caesura.service.problems.status_table import Refusal
+from caesura.service.uploads.capacity import idle, looked
 
 router = APIRouter(tags=["health"])
 

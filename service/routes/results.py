@@ -5,17 +5,17 @@ from typing import Annotated, Literal
 from anyio import to_thread
 from fastapi import APIRouter, Query, Request, Response
 
-from service.access import Owner
-from service.answers import answer
-from service.backend import Backend, Behind
-from service.descriptions import FILE, PLOT, RESULT
-from service.documents import ViewerDocument
-from service.errors import Refusal
-from service.forms import by_accept, by_suffix, plot_by_suffix
-from service.ranges import Stored, stored_response
-from service.results import Wanted, result
-from service.revisions import Revision
-from worker.schema import ViewerRecord
+from caesura.service.api_description.descriptions import FILE, PLOT, RESULT
+from caesura.service.auth.request_owner import Owner
+from caesura.service.backend import Backend, Behind
+from caesura.service.documents import ViewerDocument
+from caesura.service.problems.status_table import Refusal
+from caesura.service.results.byte_ranges import Stored, stored_response
+from caesura.service.results.result_formats import by_accept, by_suffix, plot_by_suffix
+from caesura.service.results.result_response import Wanted, result
+from caesura.service.results.revision_request import Revision
+from caesura.service.segmentations.status_response import answer
+from caesura.worker.records.schema import ViewerRecord
 
 Table = Annotated[Literal["segments", "frames"], Query(description="csv: a row per segment, or per frame")]
 

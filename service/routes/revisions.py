@@ -3,17 +3,17 @@
 from anyio import to_thread
 from fastapi import APIRouter, Request, Response
 
-from core.revision import checked
-from service.access import Owner
-from service.answers import answer
-from service.backend import Backend, Behind
-from service.descriptions import REVISED, REVISION_BODY
-from service.documents import RevisionDocument, RevisionEntry, RevisionList
-from service.ranges import caching, not_modified
-from service.results import unfinished
-from service.revisions import document_of, expected, number_of, order_of, stale
-from worker.revisions import Revisions, add_revision
-from worker.schema import RevisionRecord, SegmentationRecord
+from caesura.core.revision import checked
+from caesura.service.api_description.descriptions import REVISED, REVISION_BODY
+from caesura.service.auth.request_owner import Owner
+from caesura.service.backend import Backend, Behind
+from caesura.service.documents import RevisionDocument, RevisionEntry, RevisionList
+from caesura.service.results.byte_ranges import caching, not_modified
+from caesura.service.results.result_response import unfinished
+from caesura.service.results.revision_request import document_of, expected, number_of, order_of, stale
+from caesura.service.segmentations.status_response import answer
+from caesura.worker.records.revisions import Revisions, add_revision
+from caesura.worker.records.schema import RevisionRecord, SegmentationRecord
 
 router = APIRouter(prefix="/v1/segmentations/{identifier}/revisions", tags=["revisions"])
 

@@ -7,24 +7,24 @@ from anyio import to_thread
 from fastapi import APIRouter, Header, Query, Request, Response
 from fastapi.responses import StreamingResponse
 
-from core.parameters import Parameters
-from service.access import Owner
-from service.answers import answer, outcome, preference_applied
-from service.backend import Behind
-from service.descriptions import EVENTS, SUBMISSION, SUBMITTED
-from service.documents import SegmentationPage, StatusDocument
-from service.events import event_id, seated, status_events
-from service.intake import keep
-from service.json_body import is_json
-from service.orders import json_order, query_order
-from service.paging import Cursor, Limit, created_before, cursor_of
-from service.preferences import wait_seconds
-from service.seats import who_asks
-from service.submission import submit
-from service.uploads import received
-from service.visitors import admitted
-from worker.forgetting import forget_segmentation
-from worker.schema import SegmentationRecord
+from caesura.core.parameters import Parameters
+from caesura.service.api_description.descriptions import EVENTS, SUBMISSION, SUBMITTED
+from caesura.service.auth.authentication import admitted
+from caesura.service.auth.request_owner import Owner
+from caesura.service.backend import Behind
+from caesura.service.documents import SegmentationPage, StatusDocument
+from caesura.service.http.json_body import is_json
+from caesura.service.http.paging import Cursor, Limit, created_before, cursor_of
+from caesura.service.http.prefer_header import wait_seconds
+from caesura.service.http.stream_limit import who_asks
+from caesura.service.segmentations.event_stream import event_id, seated, status_events
+from caesura.service.segmentations.segmentation_request import json_order, query_order
+from caesura.service.segmentations.status_response import answer, outcome, preference_applied
+from caesura.service.segmentations.submission import submit
+from caesura.service.uploads.registration import keep
+from caesura.service.uploads.upload_body import received
+from caesura.worker.records.schema import SegmentationRecord
+from caesura.worker.retention.deletion import forget_segmentation
 
 router = APIRouter(prefix="/v1/segmentations", tags=["segmentations"])
 

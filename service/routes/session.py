@@ -3,12 +3,12 @@
 from fastapi import APIRouter, Request, Response
 from pydantic import BaseModel, Field
 
-from service import sessions
-from service.backend import Behind
-from service.credentials import digest_of
-from service.errors import Refusal
-from service.guard import Unknown
-from service.visitors import find_key
+from caesura.service.api_keys.credentials import digest_of
+from caesura.service.auth import sessions
+from caesura.service.auth.authentication import find_key
+from caesura.service.auth.middleware import Unknown
+from caesura.service.backend import Behind
+from caesura.service.problems.status_table import Refusal
 
 router = APIRouter(prefix="/v1/session", tags=["session"])
 

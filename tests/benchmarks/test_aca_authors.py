@@ -6,9 +6,9 @@ from threadpoolctl import threadpool_limits
 
 from benchmarks.aca_authors import AUTHORS, METHODS, REDUCED_BY, TRIALS, row
 from benchmarks.joint_angles import JOINTS, joint_angles, true_motions
-from core.agreement import frame_accuracy
-from core.alignment.frame_kernel import frame_kernel
-from core.alignment.reduction import reduction
+from caesura.core.agreement import frame_accuracy
+from caesura.core.methods.alignment.frame_kernel import frame_kernel
+from caesura.core.methods.alignment.temporal_reduction import reduction
 
 
 def test_features_are_half_the_rotation_vector_of_every_joint():

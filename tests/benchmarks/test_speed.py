@@ -9,7 +9,7 @@ from benchmarks.growth import Series, drawn
 from benchmarks.numpy_twin import twin
 from benchmarks.speed import Row, table
 from benchmarks.tube import Tube
-from core.keyframes import local_maxima
+from caesura.core.energy.key_frames import local_maxima
 
 FRAMES = 150
 

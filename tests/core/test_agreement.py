@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from core.agreement import (
+from caesura.core.agreement import (
     adjusted_rand_index,
     boundary_scores,
     cuts_of,

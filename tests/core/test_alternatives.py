@@ -1,8 +1,8 @@
 """What a slider shows that goes over K."""
 
-from core.alternatives import alternatives
-from core.parameters import Parameters
-from core.pipeline import analyse, cut
+from caesura.core.alternatives import alternatives
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import analyse, cut
 from tests.animations import performing_bar
 
 

@@ -5,7 +5,7 @@ import pickle
 
 import pytest
 
-from core.errors import KINDS, CaesuraError, InvalidModel, LimitExceeded, ParameterError, from_problem
+from caesura.core.errors import KINDS, CaesuraError, InvalidModel, LimitExceeded, ParameterError, from_problem
 
 
 @pytest.mark.parametrize("kind", sorted(KINDS))

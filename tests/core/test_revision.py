@@ -5,9 +5,9 @@ from itertools import pairwise
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.document import Interval, KeyFrame, Segment, SegmentationDocument, Source
-from core.errors import ParameterError
-from core.revision import Edit, checked, revised
+from caesura.core.document import Interval, KeyFrame, Segment, SegmentationDocument, Source
+from caesura.core.errors import ParameterError
+from caesura.core.revision import Edit, checked, revised
 
 FRAMES = 60
 

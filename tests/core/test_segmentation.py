@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pytest
 
-from core.document import Source, motion_name
-from core.segmentation import Segmentation, in_order_of_appearance
+from caesura.core.document import Source, motion_name
+from caesura.core.segmentation import Segmentation, in_order_of_appearance
 
 
 @pytest.fixture

@@ -91,13 +91,13 @@ def _instrument() -> None:
     """Count the branches of the readers; compiled loops, loaded before, stay as they are."""
     import atheris
 
-    import core.formats.gltf.meshopt.attributes.kernels
-    import core.formats.gltf.meshopt.indices.kernels
-    import core.formats.gltf.posing.kernels
+    import caesura.formats.kernels.meshopt_attributes
+    import caesura.formats.kernels.meshopt_indices
+    import caesura.formats.kernels.posing
 
-    with atheris.instrument_imports(include=["core.formats"]):
-        import core.formats.header
-        import core.formats.read  # noqa: F401
+    with atheris.instrument_imports(include=["caesura.formats"]):
+        import caesura.formats.header
+        import caesura.formats.read  # noqa: F401
 
 
 def _bound_memory() -> None:

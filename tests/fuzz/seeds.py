@@ -4,20 +4,20 @@ import zipfile
 from collections.abc import Iterator
 
 import numpy as np
+from tests.formats.test_draco import compressed
+from tests.formats.test_instances import instanced
+from tests.formats.test_pairing import mesh, skeleton
 
-from core.formats.bvh.as_gltf import bvh_as_gltf
-from core.limits import Limits
-from tests.core.formats import test_hostile_gltf as hostile
-from tests.core.formats import test_hostile_npz as archives
-from tests.core.formats.test_bvh import ARM
-from tests.core.formats.test_draco import compressed
-from tests.core.formats.test_instances import instanced
-from tests.core.formats.test_npz import npz
-from tests.core.formats.test_pairing import mesh, skeleton
-from tests.core.formats.test_zip import separate, shapes, zipped
+from caesura.core.limits import Limits
+from caesura.formats.bvh.gltf_conversion import bvh_as_gltf
+from caesura.worker.process.warm_up import moving_gltf
+from tests.formats import test_hostile_gltf as hostile
+from tests.formats import test_hostile_npz as archives
+from tests.formats.test_bvh import ARM
+from tests.formats.test_npz import npz
+from tests.formats.test_zip import separate, shapes, zipped
 from tests.fuzz.parts import joined
 from tests.glb import Glb, bending_strip, moving_square, square
-from worker.warming import moving_gltf
 
 LARGEST = 64 * 2**10
 """Bytes of a seed, and of what is made of it: faults are in structure, not in size."""

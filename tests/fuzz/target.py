@@ -4,11 +4,11 @@ import io
 import time
 import zlib
 
-from core.errors import CaesuraError
-from core.formats.header import read_header
-from core.formats.read import read_animation, takes
-from core.limits import Limits
-from core.parameters import Parameters
+from caesura.core.errors import CaesuraError
+from caesura.core.limits import Limits
+from caesura.core.parameters import Parameters
+from caesura.formats.header import read_header
+from caesura.formats.read import read_animation, takes
 from tests.fuzz.parts import parted
 
 LIMITS = Limits(

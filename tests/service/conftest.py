@@ -15,8 +15,8 @@ import httpx
 import numpy as np
 import pytest
 
+from caesura.worker.embedded_redis.server import EmbeddedRedis
 from tests.animations import performing_bar
-from worker.redis_server import EmbeddedRedis
 
 START_SECONDS = 60
 UPLOAD_LIMIT = 8_000_000
@@ -84,10 +84,10 @@ def serve(checkout, data, redis_url, workers, ready=True, **settings):
     }
     url = f"http://127.0.0.1:{port}"
     with ExitStack() as stack:
-        web = stack.enter_context(_process(sys.executable, "-m", "service", env=env))
+        web = stack.enter_context(_process(sys.executable, "-m", "caesura.service", env=env))
         http = stack.enter_context(httpx.Client(base_url=url, timeout=60))
         if workers:
-            stack.enter_context(_process(sys.executable, "-m", "worker", env=env))
+            stack.enter_context(_process(sys.executable, "-m", "caesura.worker", env=env))
         _until(web, http, "/readyz" if ready and workers else "/healthz")
         yield Service(url, http, data, redis_url, web.pid)
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from core.limits import Limits
-from core.parameters import TOLD_MOTIONS
+from caesura.core.limits import Limits
+from caesura.core.parameters import TOLD_MOTIONS
 from tests.service.conftest import UPLOAD_LIMIT
 
 

@@ -9,14 +9,14 @@ import pytest
 import redis
 from click.testing import CliRunner
 
-from service.app import create_app
-from service.cli import main
-from service.commands.key_ring import KeyRing
-from service.credentials import new_key
-from service.key_file import line
-from service.settings import ServiceSettings
+from caesura.service.api_keys.credentials import new_key
+from caesura.service.api_keys.key_file import line
+from caesura.service.app import create_app
+from caesura.service.commands.cli import main
+from caesura.service.commands.key_ring import KeyRing
+from caesura.service.settings import ServiceSettings
+from caesura.worker.records import Records
 from tests.service.conftest import serve, with_its_own_redis
-from worker.records import Records
 
 OPEN = {"GET /healthz", "GET /readyz", "POST /v1/session", "DELETE /v1/session"}
 """What needs no key. Whatever else there is, or will be, does."""

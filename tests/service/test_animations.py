@@ -2,9 +2,9 @@
 
 import pytest
 
+from caesura.worker.records import Records
+from caesura.worker.records.connection import connect
 from tests.glb import moving_square
-from worker.connection import connect
-from worker.records import Records
 
 
 @pytest.fixture(scope="module")

@@ -7,16 +7,16 @@ import pytest
 import redis
 from fastapi import FastAPI
 
-from core import errors as core_errors
-from service import failures
-from service.errors import STATUS, Refusal, status_of
-from worker.blobs import BlobMissing
+from caesura.core import errors as core_errors
+from caesura.service.problems import exception_handlers
+from caesura.service.problems.status_table import STATUS, Refusal, status_of
+from caesura.worker.store.blobs import BlobMissing
 
 
 def answered(failure):
     """What a client sees where a route raises `failure`."""
     app = FastAPI()
-    failures.install(app)
+    exception_handlers.install(app)
 
     @app.get("/")
     async def route():

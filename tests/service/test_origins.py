@@ -3,8 +3,8 @@
 import pytest
 from starlette.datastructures import Headers
 
-from service.errors import Refusal
-from service.origins import Origins
+from caesura.service.auth.origins import Origins
+from caesura.service.problems.status_table import Refusal
 
 
 def code(check):

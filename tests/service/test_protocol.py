@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import uvicorn
 
-from service.protocol import MOST_HEAD_BYTES, Protocol
+from caesura.service.http.protocol import MOST_HEAD_BYTES, Protocol
 from tests.service.conftest import npz
 
 WHOLE = b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n"

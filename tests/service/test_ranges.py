@@ -2,8 +2,8 @@
 
 import pytest
 
-from service.errors import Refusal
-from service.ranges import attachment, requested
+from caesura.service.problems.status_table import Refusal
+from caesura.service.results.byte_ranges import attachment, requested
 
 
 @pytest.mark.parametrize(

@@ -2,12 +2,12 @@
 
 import pytest
 
+from caesura.worker.process.rq_worker import CaesuraWorker
+from caesura.worker.process.worker_registry import IDLE_SECONDS, alive_here
+from caesura.worker.queue.jobs import Jobs
+from caesura.worker.records import redis_keys
+from caesura.worker.records.connection import connect
 from tests.service.conftest import with_its_own_redis
-from worker import keys
-from worker.connection import connect
-from worker.horses import CaesuraWorker
-from worker.jobs import Jobs
-from worker.roster import IDLE_SECONDS, alive_here
 
 
 @pytest.fixture(scope="module")
@@ -57,7 +57,7 @@ def test_each_queue_wants_a_worker(lonely, start):
 
 def test_a_worker_that_was_killed_is_missed(lonely, start):
     """Its sign of life is Redis's to end, whatever clocks say."""
-    sign = keys.worker_key(start("analyse", "cut").name)
+    sign = redis_keys.worker_key(start("analyse", "cut").name)
     with connect(lonely.redis_url) as client:
         assert alive_here(client)
         assert 0 < client.ttl(sign) <= IDLE_SECONDS

@@ -8,10 +8,10 @@ import time
 import pytest
 from prometheus_client.parser import text_string_to_metric_families
 
-from service.headroom import FULL
+from caesura.service.uploads.capacity import FULL
+from caesura.worker import logs
+from caesura.worker.records.connection import connect
 from tests.service.conftest import serve
-from worker import logs
-from worker.connection import connect
 
 
 def scraped(service):

@@ -10,7 +10,7 @@ from itertools import pairwise
 import httpx
 import pytest
 
-from service.seats import MOST_STREAMS
+from caesura.service.http.stream_limit import MOST_STREAMS
 from tests.service.conftest import npz
 
 PREFER = {"Prefer": "wait=30"}

@@ -4,10 +4,10 @@ import json
 
 import pytest
 
-from core.document import SegmentationDocument
+from caesura.core.document import SegmentationDocument
+from caesura.worker.alternatives import recall
+from caesura.worker.records import redis_keys
 from tests.installation import take_npz
-from worker import keys
-from worker.alternatives import recall
 
 SWITCHING = {"method": "switching"}
 
@@ -16,7 +16,7 @@ def stored(place, record):
     """The alternatives beside a result, once every one is there."""
     document, _, _ = place.records.segmentations.result(record.id)
     scored = SegmentationDocument.model_validate_json(document).scores
-    key = keys.alternatives_key(record.id)
+    key = redis_keys.alternatives_key(record.id)
     place.until(record.id, lambda _: place.redis.hlen(key) == len(scored))
     return [score.motions for score in scored]
 
@@ -85,13 +85,13 @@ def test_they_go_with_their_result(place, take):
     """Deleted, nothing of it stays, and no late job writes any."""
     done = place.ended(place.submit(place.upload(take), **SWITCHING).id)
     place.jobs.delete(done.id)
-    place.redis.delete(keys.alternatives_key(done.id))
+    place.redis.delete(redis_keys.alternatives_key(done.id))
     again = place.ended(place.submit(place.upload(take), **SWITCHING).id)
     stored(place, again)  # the worker has come this far: it is past those of the deleted one
-    assert not place.redis.exists(keys.alternatives_key(done.id))
+    assert not place.redis.exists(redis_keys.alternatives_key(done.id))
 
 
 def test_a_worker_that_was_told_the_number_stores_none(place, take):
     """Nothing was scored."""
     done = place.ended(place.submit(place.upload(take), motions=2, **SWITCHING).id)
-    assert not place.redis.exists(keys.alternatives_key(done.id))
+    assert not place.redis.exists(redis_keys.alternatives_key(done.id))

@@ -7,10 +7,10 @@ import time
 
 import pytest
 
-from worker import keys
-from worker.errands import SWEEP_SECONDS, sweep_sometimes
-from worker.retention import sweep_by_clock
-from worker.watch import Watch
+from caesura.worker.queue.auxiliary_jobs import SWEEP_SECONDS, sweep_sometimes
+from caesura.worker.queue.orphaned_jobs import Watch
+from caesura.worker.records import redis_keys
+from caesura.worker.retention.retention import sweep_by_clock
 
 DAY = 24 * 3600.0
 KEPT_UPLOAD, KEPT_RESULT = 7 * DAY, 30 * DAY
@@ -98,10 +98,10 @@ def test_nights_and_weekends_without_a_sweep_are_no_jump(take, idle, look):
 def test_what_redis_was_told_while_its_clock_was_ahead_does_not_last(idle, take):
     """A lease or an hour's pause that would end in forty days is none."""
     sweep_sometimes(idle.jobs)
-    idle.redis.expire(keys.SWEPT_KEY, int(40 * DAY))
+    idle.redis.expire(redis_keys.SWEPT_KEY, int(40 * DAY))
     sweep_sometimes(idle.jobs)
-    assert idle.redis.ttl(keys.SWEPT_KEY) <= SWEEP_SECONDS
+    assert idle.redis.ttl(redis_keys.SWEPT_KEY) <= SWEEP_SECONDS
     watch, record = Watch(idle.jobs), idle.submit(idle.upload(take))
     idle.records.attempts.begin(record.id, record.token)
-    idle.redis.expire(keys.lease_key(record.token), int(40 * DAY))
+    idle.redis.expire(redis_keys.lease_key(record.token), int(40 * DAY))
     assert [watch.look(), watch.look()] == [0, 1]

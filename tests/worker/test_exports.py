@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from caesura.worker.queue.auxiliary_jobs import PROBLEM_SECONDS, submit_export
+from caesura.worker.queue.job_problems import problem_of
+from caesura.worker.queue.jobs import Jobs
+from caesura.worker.records import redis_keys
 from tests.glb import moving_square
 from tests.installation import descendants
-from worker import keys
-from worker.errands import PROBLEM_SECONDS, submit_export
-from worker.jobs import Jobs
-from worker.problems import problem_of
 
 SEPARATE = "clips?files=separate"
 
@@ -78,12 +78,12 @@ def test_an_export_whose_worker_is_lost_is_made_anew(idle, take):
     """Pending as long as its job waits or runs; once neither is so, whoever asks has another one."""
     record = idle.submit(idle.upload(take))
     first = submit_export(idle.jobs, record.id, "npz")
-    idle.redis.delete(keys.lease_key(first.token))
+    idle.redis.delete(redis_keys.lease_key(first.token))
     assert submit_export(idle.jobs, record.id, "npz") == first  # it waits
     idle.redis.delete(idle.jobs.queues.key("cut"))
     idle.jobs.records.attempts.renew(first.token)
     assert submit_export(idle.jobs, record.id, "npz") == first  # it runs
-    idle.redis.delete(keys.lease_key(first.token))
+    idle.redis.delete(redis_keys.lease_key(first.token))
     assert submit_export(idle.jobs, record.id, "npz").token not in {"", first.token}
 
 

@@ -51,7 +51,7 @@ def test_a_task_of_ours_calls_nobody_back(idle, work):
     called = Callback("forged.mark")
     queue = RqQueue("cut", connection=idle.redis, serializer=JSONSerializer)
     for task in ("run_cut", "run_export"):
-        arguments = [f"worker.tasks.{task}", "nothing", "?revision=none"]
+        arguments = [f"caesura.worker.tasks.{task}", "nothing", "?revision=none"]
         queue.enqueue(*arguments, on_success=called, on_failure=called, on_stopped=called)
     assert not work()
     assert [queue.finished_job_registry.count, queue.failed_job_registry.count] == [1, 1]

@@ -5,11 +5,11 @@ import time
 import pytest
 
 from benchmarks.chaos_disk import small_disk
+from caesura.worker.embedded_redis.server import EmbeddedRedis
+from caesura.worker.records.connection import await_writes
+from caesura.worker.settings import WorkerSettings
 from tests.conftest import unavailable
 from tests.installation import Installation, Pool, descendants
-from worker.connection import await_writes
-from worker.redis_server import EmbeddedRedis
-from worker.settings import WorkerSettings
 
 FULL_SECONDS = 5.0
 

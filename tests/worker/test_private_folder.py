@@ -4,9 +4,9 @@ import stat
 
 import pytest
 
+from caesura.worker.embedded_redis.server import EmbeddedRedis
+from caesura.worker.private_folder import make_private
 from tests.service.conftest import serve
-from worker.private_folder import make_private
-from worker.redis_server import EmbeddedRedis
 
 
 @pytest.fixture

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from caesura.worker.settings import WorkerSettings
 from tests.installation import SLOWLY, Installation, alive, descendants
-from worker.settings import WorkerSettings
 
 SERVE = """
 from service.settings import ServiceSettings
@@ -106,7 +106,7 @@ def test_children_that_die_are_started_again(start, take):
     """Without its Redis, its web process or its workers, the service comes back, and a new take is segmented."""
     serving = start()
     done = serving.place.ended(serving.place.submit(serving.place.upload(take)).id)
-    for word in ("valkey-server", "service.web", "-m worker"):
+    for word in ("valkey-server", "caesura.service.process.web", "-m caesura.worker"):
         os.kill(serving.named(word), signal.SIGKILL)
     deadline = time.monotonic() + 20
     while time.monotonic() < deadline:

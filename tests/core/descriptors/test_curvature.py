@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import trimesh
 
-from core.descriptors.curvature import Curvature
-from core.mesh.angles import AngleDefect, Folding
-from core.mesh.edges import hinges
+from caesura.core.descriptors.curvature import Curvature
+from caesura.core.mesh.angles import AngleDefect, Folding
+from caesura.core.mesh.edges import hinges
 from tests import oracles
 from tests.animations import bar, performing_bar, turned
 from tests.core.mesh.shapes import mesh, rolled, sheet, values

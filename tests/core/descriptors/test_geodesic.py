@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from core.descriptors.geodesic import SOURCES, Geodesic
-from core.mesh.net import Net
+from caesura.core.descriptors.geodesic import SOURCES, Geodesic
+from caesura.core.mesh.edge_graph import Net
 from tests import oracles
 from tests.animations import bar, performing_bar, turned
 from tests.core.mesh.shapes import mesh, rolled, sheet, values

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from core.mesh.welding import same_points, weld
+from caesura.core.mesh.welding import same_points, weld
 from tests.animations import animation, bar, turned
 from tests.core.mesh.shapes import in_pieces
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
-from core.agreement import boundary_scores, cuts_of, frame_accuracy
-from core.analysis import Analysis, Features
-from core.document import Source
-from core.methods.switching import switching
-from core.parameters import Parameters
-from core.pipeline import segment
+from caesura.core.agreement import boundary_scores, cuts_of, frame_accuracy
+from caesura.core.analysis import Analysis, Features
+from caesura.core.document import Source
+from caesura.core.methods.switching.method import switching
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import segment
 from tests.animations import animation, bar, turned
 
 RATE = 30.0

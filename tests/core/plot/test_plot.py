@@ -10,12 +10,12 @@ from xml.etree import ElementTree
 import pytest
 from PIL import Image
 
-from core.document import KeyFrame, Segment, SegmentationDocument, Source, motion_name
-from core.errors import ParameterError
-from core.plot.layout import BAR, COLOURS, CURVE, DISCARDED, GAP, TOP, picture_of
-from core.plot.picture import Box, Dot, Label, Line
-from core.plot.png import SCALE, png
-from core.plot.svg import svg
+from caesura.core.document import KeyFrame, Segment, SegmentationDocument, Source, motion_name
+from caesura.core.errors import ParameterError
+from caesura.core.plot.layout import BAR, COLOURS, CURVE, DISCARDED, GAP, TOP, picture_of
+from caesura.core.plot.picture import Box, Dot, Label, Line
+from caesura.core.plot.png import SCALE, png
+from caesura.core.plot.svg import svg
 
 
 def document(cuts=(60, 100), frames=200, names=(), energy=None, discard=(), start=0.0):

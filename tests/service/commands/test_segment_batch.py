@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from samples.figures import figure
-from service.cli import main
-from service.commands.files import targets
+from caesura.samples.figures import figure
+from caesura.service.commands.cli import main
+from caesura.service.commands.files import targets
 from tests.conftest import unavailable
 from tests.installation import take_npz
 

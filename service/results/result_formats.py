@@ -1,0 +1,73 @@
+"""The forms a result comes in, and how a client says which: by the address's suffix, or by Accept."""
+
+from dataclasses import dataclass
+
+from caesura.service.problems.status_table import Refusal
+
+
+@dataclass(frozen=True)
+class Form:
+    """One form: the suffix that asks for it, and its media type."""
+
+    suffix: str
+    media_type: str
+
+
+FORMS = (
+    Form("json", "application/json"),
+    Form("csv", "text/csv"),
+    Form("npz", "application/x-npz"),
+    Form("vtt", "text/vtt"),
+    Form("eaf", "text/x-eaf+xml"),
+)
+
+
+PLOTS = (Form("svg", "image/svg+xml"), Form("png", "image/png"))
+
+
+def by_suffix(suffix: str) -> Form:
+    """The form of an address that ends in `result.suffix`."""
+    return _called(suffix, FORMS, "result")
+
+
+def plot_by_suffix(suffix: str) -> Form:
+    """The form of an address that ends in `plot.suffix`."""
+    return _called(suffix, PLOTS, "plot")
+
+
+def _called(suffix: str, forms: tuple[Form, ...], what: str) -> Form:
+    for form in forms:
+        if form.suffix == suffix:
+            return form
+    raise Refusal("not-found", f"There is no {what}.{suffix[:20]}. There are: {_listed(forms)}.")
+
+
+def by_accept(header: str) -> Form:
+    """The form that an Accept header likes best (RFC 9110, section 12.5.1); JSON where anything will do."""
+    wanted = [_quality(item) for item in header.split(",") if item.strip()] or [("*/*", 1.0)]
+    best = max(FORMS, key=lambda form: _liking(form, wanted))
+    if _liking(best, wanted) <= 0:
+        raise Refusal("not-acceptable", f"The result does not come as {header}. It comes as: {_listed(FORMS)}.")
+    return best
+
+
+def _quality(item: str) -> tuple[str, float]:
+    media_type, *options = (piece.strip().lower() for piece in item.split(";"))
+    quality = next((option[2:] for option in options if option.startswith("q=")), "1")
+    try:
+        return media_type, float(quality)
+    except ValueError:
+        return media_type, 0.0
+
+
+def _liking(form: Form, wanted: list[tuple[str, float]]) -> float:
+    """The quality of the most specific item that matches."""
+    for pattern in (form.media_type, form.media_type.split("/")[0] + "/*", "*/*"):
+        for media_type, quality in wanted:
+            if media_type == pattern:
+                return quality
+    return 0.0
+
+
+def _listed(forms: tuple[Form, ...]) -> str:
+    return ", ".join(f".{form.suffix} ({form.media_type})" for form in forms)
