@@ -22,6 +22,7 @@ from core.plot.png import png
 from core.revision import revised
 from worker.allowance import Allowance
 from worker.blobs import BlobMissing, Blobs
+from worker.connection import tolerate_full_disk
 from worker.forgetting import forget_oldest_exports
 from worker.mapping import mapped_parts, scratch_space
 from worker.problems import INTERNAL_ERROR, problem_of
@@ -129,6 +130,9 @@ def run(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: st
         made = ExportRecord(problem=problem_of(fault), created=time.time())
         if made.problem == INTERNAL_ERROR:
             log.exception("%s of %s cannot be made", form, identifier)
-    if not records.exports.write(identifier, form, made) and made.key is not None:
+    written = False
+    with tolerate_full_disk():
+        written = records.exports.write(identifier, form, made)
+    if not written and made.key is not None:
         blobs.delete(made.key)
     forget_oldest_exports(records, blobs, identifier, MOST_EXPORTS)
