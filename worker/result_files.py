@@ -24,6 +24,7 @@ from caesura.worker.process.job_quota import Allowance
 from caesura.worker.queue.job_problems import INTERNAL_ERROR, problem_of
 from caesura.worker.queue.queues import TimeLimit
 from caesura.worker.records import Records
+from caesura.worker.records.connection import tolerate_full_disk
 from caesura.worker.records.revisions import edits_of
 from caesura.worker.records.schema import ExportRecord, SegmentationRecord
 from caesura.worker.retention.deletion import forget_oldest_exports
@@ -129,6 +130,9 @@ def run(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: st
         made = ExportRecord(problem=problem_of(fault), created=time.time())
         if made.problem == INTERNAL_ERROR:
             log.exception("%s of %s cannot be made", form, identifier)
-    if not records.exports.write(identifier, form, made) and made.key is not None:
+    written = False
+    with tolerate_full_disk():
+        written = records.exports.write(identifier, form, made)
+    if not written and made.key is not None:
         blobs.delete(made.key)
     forget_oldest_exports(records, blobs, identifier, MOST_EXPORTS)

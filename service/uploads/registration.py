@@ -3,6 +3,8 @@
 import time
 from collections.abc import Iterable
 
+from redis.exceptions import ResponseError
+
 from caesura.core.errors import UnsupportedMedia
 from caesura.formats.file_type import SNIFFED, sniff
 from caesura.formats.header import Header, read_header
@@ -27,8 +29,7 @@ def keep(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tu
     identifier = content_ids.animation_id(backend.secret, owner, described)
     kept = backend.jobs.records.animations.one(identifier)
     if kept is not None and not all(backend.blobs.has(part.key) for part in kept.parts):  # lost by the store
-        for part in kept.parts:
-            backend.blobs.delete(part.key)
+        _discard(backend, kept)
         backend.jobs.records.animations.strip(kept)
     elif kept is not None and kept.parts:
         backend.jobs.records.animations.touch(identifier)
@@ -49,11 +50,20 @@ def keep(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tu
         triangles=header.triangles,
         created=time.time(),
     )
-    kept, ours = backend.jobs.records.animations.add(record, takes)
+    try:
+        kept, ours = backend.jobs.records.animations.add(record, takes)
+    except ResponseError:  # Redis's disk is full: what nothing points to would keep it so
+        _discard(backend, record)
+        raise
     if not ours:
-        for part in record.parts:
-            backend.blobs.delete(part.key)
+        _discard(backend, record)
     return kept, ours
+
+
+def _discard(backend: Backend, record: AnimationRecord) -> None:
+    """Delete the files of an animation."""
+    for part in record.parts:
+        backend.blobs.delete(part.key)
 
 
 def _main(backend: Backend, parts: tuple[Part, ...]) -> Part:

@@ -55,6 +55,16 @@ def test_a_newer_file_is_not_given_to_an_older_server(tmp_path):
         EmbeddedRedis(tmp_path).start()
 
 
+def test_a_version_that_a_full_disk_cut_short_is_written_again(tmp_path):
+    """The file is there and empty: the server starts, and says which it is."""
+    (tmp_path / "valkey").mkdir()
+    (tmp_path / "valkey" / "version").touch()
+    server = EmbeddedRedis(tmp_path)
+    server.start()
+    assert int((tmp_path / "valkey" / "version").read_text())
+    server.stop()
+
+
 def test_a_system_server_serves_as_well(tmp_path, redis_server):
     """Redis or Valkey of the system, where the wheel's is not wanted."""
     server = EmbeddedRedis(tmp_path, str(redis_server))
