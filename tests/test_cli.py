@@ -89,7 +89,7 @@ def test_a_glb_loads_no_library_that_it_does_not_need(tmp_path: Path) -> None:
     """By the default method: no trimesh, no scikit-learn, and of SciPy nothing but the algebra that Numba asks for."""
     (tmp_path / "rigid.glb").write_bytes(figure("rigid").glb)
     script = (
-        "import sys; from service.cli import main; main(sys.argv[1:], standalone_mode=False);"
+        "import sys; from caesura.service.commands.cli import main; main(sys.argv[1:], standalone_mode=False);"
         "unneeded = {'trimesh', 'sklearn', 'scipy.stats', 'scipy.spatial', 'scipy.optimize', 'scipy.ndimage',"
         " 'scipy.sparse'};"
         "print(sorted(unneeded & set(sys.modules)))"

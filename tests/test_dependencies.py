@@ -74,7 +74,7 @@ def without_the_extra(checkout: Path, *arguments: str) -> subprocess.CompletedPr
     modules = {top for top, names in PROVIDERS.items() if missing & {canonicalize_name(name) for name in names}}
     program = (
         f"import sys\nfor name in {sorted(modules)!r}:\n    sys.modules[name] = None\n"
-        "from service.cli import main\nmain(sys.argv[1:])"
+        "from caesura.service.commands.cli import main\nmain(sys.argv[1:])"
     )
     return subprocess.run(
         [sys.executable, "-c", program, *arguments], check=False, capture_output=True, text=True, timeout=120

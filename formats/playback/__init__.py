@@ -1,6 +1,6 @@
 """What the page plays: a model, and how strained its surface is at every frame.
 
-    from core.formats.playback.play import playback
+    from caesura.formats.playback.playback_files import playback
     playback(animation, analysis, threads=…, progress=…) -> Playback(document, model, strain)
 
 A glTF plays as itself: `model` is a plain copy that three.js skins on the GPU (`plain_copy`). A vertex sequence

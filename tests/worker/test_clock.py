@@ -18,11 +18,12 @@ KEPT_UPLOAD, KEPT_RESULT = 7 * DAY, 30 * DAY
 WORKER = """
 import os, time
 from pathlib import Path
-from worker import horses, tasks
-from worker.attempt import carry_out
-from worker.connection import connect
-from worker.jobs import Jobs
-from worker.settings import WorkerSettings
+from caesura.worker.process import rq_worker as horses
+from caesura.worker import tasks
+from caesura.worker.queue.attempt import carry_out
+from caesura.worker.records.connection import connect
+from caesura.worker.queue.jobs import Jobs
+from caesura.worker.settings import WorkerSettings
 
 def work(attempt):
     Path(os.environ["JUMPING_CLOCK"]).write_text("7200")

@@ -10,10 +10,10 @@ from rq import Queue as RqQueue
 from rq.serializers import JSONSerializer
 
 WORKER = """
-from worker.connection import connect
-from worker.horses import CaesuraWorker
-from worker.jobs import Jobs
-from worker.settings import WorkerSettings
+from caesura.worker.records.connection import connect
+from caesura.worker.process.rq_worker import CaesuraWorker
+from caesura.worker.queue.jobs import Jobs
+from caesura.worker.settings import WorkerSettings
 settings = WorkerSettings()
 CaesuraWorker(["cut"], connect(settings.redis_location), Jobs.open(settings)).work(burst=True)
 """

@@ -15,8 +15,8 @@ from caesura.worker.settings import WorkerSettings
 from tests.installation import SLOWLY, Installation, alive, descendants
 
 SERVE = """
-from service.settings import ServiceSettings
-from service.supervisor import serve
+from caesura.service.settings import ServiceSettings
+from caesura.service.process.supervisor import serve
 import sys
 serve(ServiceSettings(port=0), on_ready=lambda address: print(address, flush=True))
 assert "numpy" not in sys.modules

@@ -8,7 +8,7 @@ import sys
 from caesura.worker.process.thread_count import available_threads
 
 MEMORY = """
-from worker.allowance import Allowance
+from caesura.worker.process.job_quota import Allowance
 allowance = Allowance(64 * 2**20, 60)
 held = bytearray(32 * 2**20)
 try:
@@ -19,7 +19,7 @@ except MemoryError:
     print("granted")
 """
 TIME = """
-from worker import allowance
+from caesura.worker.process import job_quota as allowance
 allowance.GRACE_SECONDS = 0
 allowance.Allowance(2**30, 1)
 while True:

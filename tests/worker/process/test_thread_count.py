@@ -52,7 +52,7 @@ def test_the_quota_bounds_the_threads(machine, files, own, quota):
 def test_affinity_bounds_the_threads():
     """A process that is held on one processor computes on one thread."""
     program = (
-        "import os; from worker.cpu import available_threads\n"
+        "import os; from caesura.worker.process.thread_count import available_threads\n"
         "os.sched_setaffinity(0, {min(os.sched_getaffinity(0))}); print(available_threads())"
     )
     told = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True)

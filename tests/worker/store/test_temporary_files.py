@@ -19,8 +19,8 @@ from caesura.worker.store.temporary_files import aside, clear, path_of
 HOLD = """
 import sys, time
 from pathlib import Path
-from worker.forgetting import forget_segmentation
-from worker.leftovers import held_file
+from caesura.worker.retention.deletion import forget_segmentation
+from caesura.worker.store.temporary_files import held_file
 file = held_file(Path(sys.argv[1]))
 file.write(b"half of it")
 print("held", flush=True)
@@ -91,10 +91,10 @@ def test_a_clock_that_jumps_loses_no_blob(idle):
 
 SWEEP = """
 import os, signal, sys
-from worker.blobs import Blobs
-from worker.jobs import Jobs
-from worker.retention import sweep
-from worker.settings import WorkerSettings
+from caesura.worker.store.blobs import Blobs
+from caesura.worker.queue.jobs import Jobs
+from caesura.worker.retention.retention import sweep
+from caesura.worker.settings import WorkerSettings
 settings, left = WorkerSettings(), int(sys.argv[1])
 
 class Fragile(Blobs):
