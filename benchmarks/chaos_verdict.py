@@ -9,7 +9,7 @@ import httpx
 from benchmarks.chaos_client import Seen
 from benchmarks.chaos_house import House
 from caesura.worker.queue.jobs import Jobs
-from caesura.worker.retention.orphaned_blobs import forget_orphans
+from caesura.worker.retention.orphaned_blobs import delete_orphaned_blobs
 
 QUIET_SECONDS = 300.0  # until the small jobs are done that nobody waits for
 
@@ -101,8 +101,8 @@ def _leftover(house: House, jobs: Jobs, said: Verdict) -> list[str]:
     """Files that nothing needs, once the sweep has looked twice."""
     blobs = house.blobs()
     before = dict(blobs.all())
-    forget_orphans(jobs.records, blobs, 0.0)
-    forget_orphans(jobs.records, blobs, 0.0)
+    delete_orphaned_blobs(jobs.records, blobs, 0.0)
+    delete_orphaned_blobs(jobs.records, blobs, 0.0)
     kept = dict(blobs.all())
     said.swept = len(before) - len(kept)
     stored = {str(path.relative_to(house.folder / "blobs")) for path in _files(house.folder / "blobs")}

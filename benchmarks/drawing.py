@@ -7,7 +7,7 @@ import numpy as np
 from jaxtyping import Int
 
 from benchmarks.cmu import Annotation
-from caesura.core.agreement import cuts_of
+from caesura.core.agreement import cut_frames
 from caesura.core.segmentation import Segmentation
 
 WIDTH, CURVE, BAR, GAP, LEFT = 960, 170, 26, 10, 70  # pixels
@@ -54,7 +54,7 @@ def bars(labelled: Sequence[tuple[str, str, Labels, Labels]]) -> str:
         parts.append(_text(LEFT_OF_BARS, y + 13, take, "start"))
         y += 18
         for name, labels in (("truth", truth), *((row[1], row[3]) for row in of_take)):
-            bounds = [0, *cuts_of(labels).tolist(), len(labels)]
+            bounds = [0, *cut_frames(labels).tolist(), len(labels)]
             shown = {m: int(np.bincount(truth[labels == m]).argmax()) for m in np.unique(labels).tolist()}
             motions = [shown[int(labels[a])] for a in bounds[:-1]]
             parts += [f'<g transform="translate({LEFT_OF_BARS} 0)">', *_bar(name, y, bounds, motions, [], len(truth))]

@@ -14,7 +14,7 @@ from jaxtyping import Float, Int
 from caesura.core.animation import Animation, Take
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
-from caesura.formats.gltf.animation.sampling import Tracks
+from caesura.formats.gltf.animation.sampling import KeyTracks
 from caesura.formats.gltf.posing.nodes import R
 from caesura.formats.gltf.posing.vertices import PosedVertices
 from caesura.formats.header import read_header
@@ -58,7 +58,7 @@ class Passage:
 
 
 @dataclass(frozen=True)
-class JoinedTracks(Tracks):
+class JoinedTracks(KeyTracks):
     """The course of a joined take, in place of the keys of one clip."""
 
     passages: tuple[Passage, ...]

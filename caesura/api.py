@@ -9,14 +9,14 @@ from numpy.typing import ArrayLike
 
 from caesura.core.animation import Animation
 from caesura.core.errors import InvalidModel, ParameterError
-from caesura.core.feature_sequence import cut_features
+from caesura.core.feature_sequence import segment_features
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import segment as segment_animation
-from caesura.core.progress import Progress, ignore
+from caesura.core.progress import Progress, ignore_progress
 from caesura.core.segmentation import Segmentation
 from caesura.formats.notices import Notices
-from caesura.formats.npz.read import check_triangles, sequence
+from caesura.formats.npz.read import check_triangles, vertex_sequence_from_arrays
 from caesura.formats.read import read_animation
 
 Bytes = bytes | bytearray | memoryview | mmap
@@ -31,7 +31,7 @@ def segment(
     frame_rate: float = 30.0,
     rest_shape: ArrayLike | None = None,
     threads: int = 1,
-    progress: Progress = ignore,
+    progress: Progress = ignore_progress,
     **parameters: Any,
 ) -> Segmentation:
     """The motions of a take: which there are, where each begins and ends, and how sure each cut is.
@@ -57,7 +57,7 @@ def segment(
     if not isinstance(source, Animation | bytes | bytearray | memoryview | mmap | Mapping):
         source = np.asarray(source)
         if source.ndim == 2:
-            return cut_features(source, chosen, frame_rate=frame_rate)
+            return segment_features(source, chosen, frame_rate=frame_rate)
     animation = open_animation(source, triangles, frame_rate=frame_rate, rest_shape=rest_shape, **parameters)
     return segment_animation(animation, chosen, threads=threads, progress=progress)
 
@@ -107,7 +107,7 @@ def _of_arrays(
     shape = None if rest_shape is None else np.asarray(rest_shape, np.float32)
     if shape is not None and (shape.shape != vertices.shape[1:] or not np.isfinite(shape).all()):
         raise InvalidModel("wrong-shape", f"The rest shape is one finite point for each vertex: {vertices.shape[1:]}.")
-    return sequence(vertices, faces, shape, float(frame_rate), chosen, Limits.none(), notices)
+    return vertex_sequence_from_arrays(vertices, faces, shape, float(frame_rate), chosen, Limits.none(), notices)
 
 
 def _triangles(given: ArrayLike | None, vertices: int, notices: Notices) -> np.ndarray:

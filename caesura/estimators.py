@@ -14,7 +14,7 @@ from sklearn.utils.validation import validate_data
 
 from caesura.api import Bytes, open_animation, segment
 from caesura.core.animation import Animation
-from caesura.core.methods.pose_features import poses
+from caesura.core.methods.pose_features import pose_features
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse
 
@@ -106,7 +106,7 @@ class MotionFeatures(TransformerMixin, BaseEstimator):  # type: ignore[misc]  # 
         """(frames, D): strain and pair distances side by side, each at unit mean square about its mean."""
         animation = open_animation(X, triangles, frame_rate=self.frame_rate)
         parameters = Parameters.parse({"descriptor": self.descriptor})
-        return poses(analyse(animation, parameters, threads=self.threads).features)
+        return pose_features(analyse(animation, parameters, threads=self.threads).features)
 
     def __sklearn_is_fitted__(self) -> bool:
         return True

@@ -8,7 +8,7 @@ from caesura.core.pipeline import cut
 from caesura.core.segmentation import Segmentation
 
 
-def alternatives(
+def cut_into_other_motion_counts(
     analysis: Analysis, parameters: Parameters, scored: Iterable[int], chosen: int
 ) -> Iterator[Segmentation]:
     """What `cut` answers for every number of motions that was scored when it chose one; the nearest to that first.

@@ -19,7 +19,7 @@ ALGORITHM = "2"
 Auto = Literal["auto"]
 Positive = Field(gt=0, allow_inf_nan=False)
 
-TOLD_MOTIONS = frozenset({"luo2014", "spectral", "aca", "haca"})
+METHODS_NEEDING_MOTIONS = frozenset({"luo2014", "spectral", "aca", "haca"})
 """Methods that must be told K: they have no way of their own to choose it, and another's would not be theirs."""
 
 
@@ -95,11 +95,11 @@ class Parameters(BaseModel):
                 f"It is: {cls.model_fields[name].description}.",
                 parameter=name,
             ) from None
-        if parameters.method in TOLD_MOTIONS:
-            parameters.motions_told()
+        if parameters.method in METHODS_NEEDING_MOTIONS:
+            parameters.required_motions()
         return parameters
 
-    def motions_told(self) -> int:
+    def required_motions(self) -> int:
         """K; raises `ParameterError` where nobody said it."""
         if self.motions == "auto":
             raise ParameterError(
@@ -112,7 +112,7 @@ class Parameters(BaseModel):
 
     def heavy(self) -> "dict[str, Any]":
         """The parameters an analysis depends on; light ones may change without touching a vertex."""
-        return self.model_dump(include=names("heavy"))
+        return self.model_dump(include=parameter_names("heavy"))
 
     def canonical(self) -> str:
         """The same text for the same choices, however they were spelled: what ids are made of."""
@@ -134,7 +134,7 @@ def _value(name: str, given: Any) -> Any:
     return value
 
 
-def names(weight: Literal["heavy", "light"]) -> set[str]:
+def parameter_names(weight: Literal["heavy", "light"]) -> set[str]:
     """The names of the parameters of one weight."""
     return {
         name

@@ -8,7 +8,7 @@ from typing import Any
 from threadpoolctl import ThreadpoolController
 
 
-def one_thread() -> AbstractContextManager[Any]:
+def single_threaded_blas() -> AbstractContextManager[Any]:
     """`threadpool_limits(1)`, but for the search through all loaded libraries, which takes longer than some cuts.
 
     They are searched at the first call, and once more where scikit-learn, with its OpenMP, was imported since.

@@ -3,7 +3,7 @@
 from caesura.core.limits import Limits
 
 
-class Budget:
+class DecodeBudget:
     """Counts what is decoded, every use of it, before it is allocated.
 
     One small view can be referenced a hundred thousand times, and an accessor without data is all zeros of any

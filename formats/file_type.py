@@ -7,12 +7,12 @@ from caesura.core.errors import UnsupportedMedia
 
 Format = Literal["glb", "gltf", "npz", "bvh", "zip"]
 
-SNIFFED = 256
+SIGNATURE_BYTES = 256
 """Bytes that are enough to tell."""
 
-READ = "glTF 2.0 (.glb, .gltf), BVH (.bvh), NumPy archives (.npz) and zips of them"
+READABLE_FORMATS = "glTF 2.0 (.glb, .gltf), BVH (.bvh), NumPy archives (.npz) and zips of them"
 
-OTHERS = {
+KNOWN_UNREADABLE = {
     b"version https://git-lfs": "a Git LFS pointer, not the file it stands for; fetch it with git lfs pull",
     b"\x89PNG": "a PNG image",
     b"\xff\xd8\xff": "a JPEG image",
@@ -30,7 +30,7 @@ WIDE = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE, b"{\0", b"\0{", b"[\0", b"\0["
 """How JSON begins in UTF-16, which glTF does not allow: opened, and refused as malformed."""
 
 
-def sniff(head: bytes) -> Format:
+def detect_file_type(head: bytes) -> Format:
     """The format of a file that begins with `head`; raises `UnsupportedMedia` naming what it is instead."""
     if head.startswith(b"glTF"):
         return "glb"
@@ -41,7 +41,9 @@ def sniff(head: bytes) -> Format:
         return "gltf"
     if text.startswith(b"HIERARCHY"):
         return "bvh"
-    raise UnsupportedMedia("unsupported-media-type", f"The file is {_described(head, text)}. Caesura reads {READ}.")
+    raise UnsupportedMedia(
+        "unsupported-media-type", f"The file is {_described(head, text)}. Caesura reads {READABLE_FORMATS}."
+    )
 
 
 def _begins_with_a_file(head: bytes) -> bool:
@@ -55,4 +57,6 @@ def _described(head: bytes, text: bytes) -> str:
         return "empty"
     if text[:1] == b"<":
         return "HTML or XML, perhaps a page with an error message instead of the file"
-    return next((what for magic, what in OTHERS.items() if head.startswith(magic)), "of a kind that is not known")
+    return next(
+        (what for magic, what in KNOWN_UNREADABLE.items() if head.startswith(magic)), "of a kind that is not known"
+    )

@@ -20,13 +20,13 @@ FLOAT32_STEP = 2.0**-23
 """The distance of neighbouring float32 numbers, as a share of the smaller; a key is off by half of it at most."""
 
 
-def snapped(rate: float) -> float | None:
+def snap_frame_rate(rate: float) -> float | None:
     """The known rate that is nearest to `rate`, if it is within 1.5 % of it."""
     nearest = min(KNOWN, key=lambda known: abs(known - rate))
     return nearest if abs(nearest - rate) <= NEAR * nearest else None
 
 
-def key_rate(times: Sequence[float]) -> float | None:
+def estimate_key_rate(times: Sequence[float]) -> float | None:
     """Frames per second of keys at `times` (seconds, not decreasing), or None where they do not tell.
 
     A key on every frame: one over the usual distance. Sparse keys: the lowest known rate that has all of them on
@@ -38,7 +38,7 @@ def key_rate(times: Sequence[float]) -> float | None:
     span, usual = times[-1] - times[0], median(steps)
     # float32 times of a long session are too coarse for one step, but not for the mean of even ones.
     even = abs(span / usual - len(steps)) <= 0.02 * len(steps)
-    return snapped(len(steps) / span if even else 1 / usual) or _rate_of_sparse_keys(times)
+    return snap_frame_rate(len(steps) / span if even else 1 / usual) or _rate_of_sparse_keys(times)
 
 
 def _rate_of_sparse_keys(times: Sequence[float]) -> float | None:
@@ -62,7 +62,7 @@ def _alike(rate: float, other: float) -> bool:
     return abs(rate - other) <= 0.002 * rate
 
 
-def frame_count(duration: float, rate: float) -> float:
+def count_frames(duration: float, rate: float) -> float:
     """Frames of a clip of `duration` seconds, its first at 0: floor(duration · rate + ε) + 1.
 
     Keys are float32, so 3.33333325 s · 30 = 99.9999976 must still be 101 frames: ε is 1e-4 of a frame, and in long

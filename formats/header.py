@@ -9,16 +9,16 @@ from dataclasses import dataclass
 from typing import BinaryIO
 
 from caesura.core.limits import Limits
-from caesura.formats.bundle.members import ZipFiles, archive_within, told_as_zip
-from caesura.formats.bvh.hierarchy import read_head
-from caesura.formats.file_type import SNIFFED, Format, sniff
-from caesura.formats.frame_rate import ASSUMED, frame_count, snapped
+from caesura.formats.bundle.members import ZipMembers, errors_as_zip, refuse_nested_archive
+from caesura.formats.bvh.hierarchy import read_bvh_header
+from caesura.formats.file_type import SIGNATURE_BYTES, Format, detect_file_type
+from caesura.formats.frame_rate import ASSUMED, count_frames, snap_frame_rate
 from caesura.formats.gltf.animation.key_times import KeyTimes
 from caesura.formats.gltf.container import CHUNK, HEADER, glb_length, json_chunk_length, parse_root
 from caesura.formats.gltf.document import check_extensions
-from caesura.formats.gltf.summary import Clip, clips, size_of_scene
+from caesura.formats.gltf.summary import AnimationSummary, estimate_scene_size, summarise_animations
 from caesura.formats.notices import Notices
-from caesura.formats.npz.members import check_shapes, members_by_use
+from caesura.formats.npz.members import check_shapes, find_members_by_use
 from caesura.formats.zip.archive import Archive
 
 MOST_JSON = 4 * 2**20
@@ -56,7 +56,7 @@ def read_header(file: BinaryIO, name: str, limits: Limits) -> Header:
     Raises `UnsupportedMedia`, `BrokenContainer`, `LimitExceeded`, or `InvalidModel` for what is already plain.
     """
     file.seek(0)
-    kind = sniff(file.read(SNIFFED))
+    kind = detect_file_type(file.read(SIGNATURE_BYTES))
     if kind == "npz":
         return _npz_header(file, name, limits)
     if kind == "zip":
@@ -75,9 +75,9 @@ def _gltf_header(file: BinaryIO, kind: Format, name: str, limits: Limits) -> Hea
     file.seek(start)
     root = parse_root(file.read(length), limits)
     check_extensions(root)
-    found = clips(root, KeyTimes(file, start + length, root.value) if kind == "glb" else lambda _: ())
+    found = summarise_animations(root, KeyTimes(file, start + length, root.value) if kind == "glb" else lambda _: ())
     limits.check("max_takes", len(found), pointer="/animations")
-    vertices, triangles = size_of_scene(root)
+    vertices, triangles = estimate_scene_size(root)
     return Header(kind, name, tuple(_take(place, clip) for place, clip in enumerate(found)), vertices, triangles)
 
 
@@ -88,33 +88,33 @@ def _json_of_glb(file: BinaryIO, size: int) -> tuple[int, int]:
     return start, json_chunk_length(file.read(CHUNK.size), length - start)
 
 
-def _take(place: int, clip: Clip) -> HeaderTake:
+def _take(place: int, clip: AnimationSummary) -> HeaderTake:
     rate = clip.rate or ASSUMED
-    return HeaderTake(place, clip.name, clip.seconds, int(min(frame_count(clip.seconds, rate), MOST_FRAMES)), rate)
+    return HeaderTake(place, clip.name, clip.seconds, int(min(count_frames(clip.seconds, rate), MOST_FRAMES)), rate)
 
 
 def _bvh_header(file: BinaryIO, name: str, limits: Limits) -> Header:
     file.seek(0)
-    head = read_head(file.read(2 * MOST_JSON), limits)
-    rate = snapped(head.rate) or ASSUMED
+    head = read_bvh_header(file.read(2 * MOST_JSON), limits)
+    rate = snap_frame_rate(head.rate) or ASSUMED
     seconds = max(head.frames - 1, 0) / head.rate
-    frames = int(min(frame_count(seconds, rate), MOST_FRAMES))
+    frames = int(min(count_frames(seconds, rate), MOST_FRAMES))
     return Header("bvh", name, (HeaderTake(0, "motion", seconds, frames, rate),), len(head.joints), 0)
 
 
 def _zip_header(file: BinaryIO, name: str, limits: Limits) -> Header:
     """That of its model, by its first megabytes, or the number of its shapes."""
-    files = ZipFiles(file, limits)
+    files = ZipMembers(file, limits)
     if files.are_arrays():
         return _npz_header(file, name, limits)
     model = files.model()
     if model is None:
         frames = len(files.shapes())
         return Header("zip", name, (HeaderTake(0, "vertices", (frames - 1) / ASSUMED, frames, ASSUMED),))
-    with told_as_zip(), files.inflate(model) as inner:
+    with errors_as_zip(), files.inflate(model) as inner:
         data = inner.read(2 * MOST_JSON)
-    if sniff(data[:SNIFFED]) in {"zip", "npz"}:
-        raise archive_within(model)
+    if detect_file_type(data[:SIGNATURE_BYTES]) in {"zip", "npz"}:
+        raise refuse_nested_archive(model)
     found = read_header(_Beginning(data, files.members[model].file_size), name, limits)
     return Header("zip", name, found.takes, found.vertices, found.triangles)
 
@@ -133,7 +133,7 @@ class _Beginning(io.BytesIO):
 
 def _npz_header(file: BinaryIO, name: str, limits: Limits) -> Header:
     archive = Archive(file, limits)
-    members = members_by_use(archive, Notices())
+    members = find_members_by_use(archive, Notices())
     headers = {what: archive.header(member) for what, member in members.items()}
     check_shapes(headers, members, limits)
     frames, vertices, _ = headers["vertices"].shape

@@ -11,7 +11,7 @@ from caesura.core.errors import InvalidModel
 
 
 @dataclass(frozen=True)
-class Joined:
+class JoinedTakes:
     """Draws frames of takes one after the other; take k begins at frame `first[k]`, the last of which is their end.
 
     Between two takes the body leaps: nothing is made up there.

@@ -10,14 +10,14 @@ from caesura.core.document import Notice
 from caesura.core.errors import BrokenContainer, InvalidModel
 from caesura.core.limits import Limits
 from caesura.formats.gltf.container import Container, open_container
-from caesura.formats.gltf.json_object import Entry
+from caesura.formats.gltf.json_object import JsonObject
 from caesura.formats.notices import Notices
 
 BINARY = {"mesh": "binary chunk of the mesh", "skeleton": "binary chunk of the skeleton"}
 LISTS = ("buffers", "bufferViews", "accessors")
 
 
-class Pair(NamedTuple):
+class MeshMotionPair(NamedTuple):
     """One glTF made of two; `parts` are their binary chunks, by the names that it calls them."""
 
     json: bytes
@@ -25,7 +25,7 @@ class Pair(NamedTuple):
     notice: Notice
 
 
-def paired(first: memoryview, second: memoryview, limits: Limits) -> Pair:
+def pair_mesh_and_motion(first: memoryview, second: memoryview, limits: Limits) -> MeshMotionPair:
     """The mesh of one of two glTF files, moved by the animations of the other.
 
     Raises `ambiguous-upload` where it is not plain which is which, `unmatched-skeleton` where no name is in both.
@@ -38,15 +38,15 @@ def paired(first: memoryview, second: memoryview, limits: Limits) -> Pair:
             "Both files have a mesh and an animation, or neither. Send one of them, or a mesh and its motion.",
         )
     try:
-        return _merged(mesh, skeleton)
+        return _merge_animation(mesh, skeleton)
     except RecursionError:
         raise BrokenContainer("malformed-json", "The JSON is nested too deeply. Export the file again.") from None
 
 
-def _merged(mesh: Container, skeleton: Container) -> Pair:
+def _merge_animation(mesh: Container, skeleton: Container) -> MeshMotionPair:
     parts = {BINARY[name]: found.binary for name, found in (("mesh", mesh), ("skeleton", skeleton)) if found.binary}
-    merged = _plain(mesh.root, BINARY["mesh"] if mesh.is_glb else None)
-    moving = _plain(skeleton.root, BINARY["skeleton"] if skeleton.is_glb else None)
+    merged = _plain_name(mesh.root, BINARY["mesh"] if mesh.is_glb else None)
+    moving = _plain_name(skeleton.root, BINARY["skeleton"] if skeleton.is_glb else None)
     counts = {name: len(mesh.root.entries(name)) for name in LISTS}
     for name in LISTS:
         skeleton.root.entries(name)  # objects, or refused
@@ -58,16 +58,16 @@ def _merged(mesh: Container, skeleton: Container) -> Pair:
     detail = f"The mesh is of one file and the motion of the other; {matched} of its nodes were found by name."
     if lost:
         detail += f" {lost} were not, and do not move."
-    return Pair(json.dumps(merged).encode(), parts, Notice(code="skeleton-paired", detail=detail))
+    return MeshMotionPair(json.dumps(merged).encode(), parts, Notice(code="skeleton-paired", detail=detail))
 
 
-def _has_mesh_only(mesh: Entry, skeleton: Entry) -> bool:
+def _has_mesh_only(mesh: JsonObject, skeleton: JsonObject) -> bool:
     """Whether one has the mesh and the other the animation, and not both have both."""
     both = bool(mesh.values("animations")) and bool(skeleton.values("meshes"))
     return bool(mesh.values("meshes")) and bool(skeleton.values("animations")) and not both
 
 
-def _plain(root: Entry, binary: str | None) -> dict[str, Any]:
+def _plain_name(root: JsonObject, binary: str | None) -> dict[str, Any]:
     """The JSON, the binary chunk of a GLB called by a name."""
     value = copy.deepcopy(root.value)
     root.entries("buffers")
@@ -90,7 +90,7 @@ def _shifted(part: Any, counts: dict[str, int]) -> Any:
 
 
 def _animations(
-    mesh: Entry, skeleton: Entry, moving: dict[str, Any], shift: int
+    mesh: JsonObject, skeleton: JsonObject, moving: dict[str, Any], shift: int
 ) -> tuple[list[dict[str, Any]], int, int]:
     """The animations with their nodes and accessors in the mesh's file, and how many nodes were and were not there."""
     names = [entry.value.get("name") for entry in mesh.entries("nodes")]

@@ -8,7 +8,7 @@ from typing import Any, NoReturn
 from caesura.core.errors import BrokenContainer
 
 
-def parse_object(text: bytes | memoryview) -> dict[str, Any]:
+def parse_json_object(text: bytes | memoryview) -> dict[str, Any]:
     """The JSON object in UTF-8 `text`; a byte order mark is allowed.
 
     Raises `BrokenContainer("malformed-json")` for anything else: other encodings, NaN and Infinity, a name that

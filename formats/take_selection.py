@@ -2,7 +2,7 @@
 
 from caesura.core.errors import ParameterError
 
-SHOWN = 20
+MOST_NAMES_SHOWN = 20
 
 LONGEST = 100
 """Letters of a take's name; a name may be as long as its file, and is kept and sent with every answer."""
@@ -21,7 +21,7 @@ def shortened(name: str) -> str:
     return name if len(name) <= LONGEST else f"{name[: LONGEST - 1]}…"
 
 
-def choose_take(names: list[str], wanted: str | int) -> int | None:
+def select_take(names: list[str], wanted: str | int) -> int | None:
     """The place of the `wanted` take, None for the longest one.
 
     Raises `ParameterError`: `unknown-take`, or `ambiguous-take` with the places of a name that occurs twice.
@@ -36,15 +36,16 @@ def choose_take(names: list[str], wanted: str | int) -> int | None:
     if not places:
         raise ParameterError("unknown-take", f"There is no take {wanted[:80]!r}. {_listed(names)}", parameter="take")
     if len(places) > 1:
+        numbers = ", ".join(map(str, places[:MOST_NAMES_SHOWN]))
         raise ParameterError(
             "ambiguous-take",
-            f"{len(places)} takes are called {wanted[:80]!r}. Choose by number: {', '.join(map(str, places[:SHOWN]))}.",
+            f"{len(places)} takes are called {wanted[:80]!r}. Choose by number: {numbers}.",
             parameter="take",
         )
     return places[0]
 
 
 def _listed(names: list[str]) -> str:
-    shown = ", ".join(f"{place} {name[:40]!r}" for place, name in enumerate(names[:SHOWN]))
-    more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
+    shown = ", ".join(f"{place} {name[:40]!r}" for place, name in enumerate(names[:MOST_NAMES_SHOWN]))
+    more = f" and {len(names) - MOST_NAMES_SHOWN} more" if len(names) > MOST_NAMES_SHOWN else ""
     return f"The file has {shown}{more}."

@@ -3,10 +3,10 @@
 from caesura.core.errors import ParameterError
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
-from caesura.formats.frame_rate import frame_count
+from caesura.formats.frame_rate import count_frames
 
 
-def stretch(parameters: Parameters, duration: float, first_key: float = 0.0) -> tuple[float, float]:
+def parse_time_range(parameters: Parameters, duration: float, first_key: float = 0.0) -> tuple[float, float]:
     """Start and end, within `duration` seconds; raises `ParameterError("outside-take")` where nothing is left."""
     start = max(parameters.start, first_key if parameters.trim else 0.0)
     end = duration if parameters.end == "last" else min(parameters.end, duration)
@@ -19,7 +19,7 @@ def stretch(parameters: Parameters, duration: float, first_key: float = 0.0) -> 
     return start, end
 
 
-def counted(
+def check_frame_count(
     limits: Limits, seconds: float, rate: float, triangles: int, nodes: int = 0, pointer: str = "/vertices"
 ) -> int:
     """Frames of so many seconds of what `pointer` names, compared with the limits while they are still a float."""
@@ -28,7 +28,7 @@ def counted(
         limits.check(name, actual, advice, pointer)
 
     check("max_seconds", seconds, "Send start and end for a part of it")
-    frames = frame_count(seconds, rate)
+    frames = count_frames(seconds, rate)
     check("max_frames", frames, "Send a lower fps, or start and end for a part of it")
     check(
         "max_triangle_frames", frames * triangles, "Send a lower fps, start and end for a part of it, or a lighter mesh"

@@ -31,7 +31,7 @@ class VertexSequence:
             before = np.minimum(at.astype(np.int64), len(self.stored) - 2)
             share = (at - before)[:, None, None]
             block = _plain(self.stored[before] * (1 - share) + self.stored[before + 1] * share)
-        if not finite(block):
+        if not require_finite(block):
             frame, vertex = np.argwhere(~np.isfinite(block).all(axis=2))[0].tolist()
             raise InvalidModel(
                 "non-finite-data", "A vertex is not at a finite place.", frame=start + frame, vertex=vertex
@@ -39,7 +39,7 @@ class VertexSequence:
         return block
 
 
-def finite(values: Float[np.ndarray, "..."]) -> bool:
+def require_finite(values: Float[np.ndarray, "..."]) -> bool:
     """Whether all of `values` are finite; a sum of squares tells without an array of answers."""
     flat = values.reshape(-1)
     return bool(np.isfinite(flat.dot(flat))) or bool(np.isfinite(flat).all())

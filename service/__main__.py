@@ -9,7 +9,7 @@ from caesura.worker import logs
 def main() -> None:
     """Serve until told to stop."""
     settings = ServiceSettings()
-    logs.configure(settings.log_format)
+    logs.configure_logging(settings.log_format)
     Server(create_app(settings), settings.host, settings.port, settings.proxies).run()
 
 

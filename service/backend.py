@@ -13,7 +13,7 @@ from fastapi import Depends, Request
 from redis.exceptions import RedisError
 
 from caesura.service.api_keys.key_file import KeyFile
-from caesura.service.http.stream_limit import Seats
+from caesura.service.http.stream_limit import StreamLimit
 from caesura.service.problems.status_table import Refusal
 from caesura.service.settings import ServiceSettings
 from caesura.worker.private_folder import make_private
@@ -24,7 +24,7 @@ from caesura.worker.records.connection import connect
 from caesura.worker.records.layout_version import check_layout
 from caesura.worker.records.schema import AnimationRecord, SegmentationRecord
 from caesura.worker.store.blobs import Blobs
-from caesura.worker.store.temporary_files import clear
+from caesura.worker.store.temporary_files import delete_abandoned_files
 
 
 @dataclass
@@ -36,7 +36,7 @@ class Backend:
     jobs: Jobs
     blobs: Blobs
     key_file: KeyFile
-    seats: Seats = field(default_factory=Seats)
+    seats: StreamLimit = field(default_factory=StreamLimit)
     _waits: set[CancelScope] = field(default_factory=set)
 
     @cached_property
@@ -64,7 +64,7 @@ class Backend:
         return record
 
     @contextmanager
-    def patience(self, seconds: float = math.inf) -> Iterator[CancelScope]:
+    def limited_wait(self, seconds: float = math.inf) -> Iterator[CancelScope]:
         """A wait of at most `seconds`; ended before where the process is told to stop."""
         with move_on_after(seconds) as scope:
             self._waits.add(scope)
@@ -78,12 +78,12 @@ class Backend:
         for scope in self._waits:
             scope.cancel()
 
-    async def awaited(self, record: SegmentationRecord, seconds: float | None) -> SegmentationRecord:
+    async def wait_until_settled(self, record: SegmentationRecord, seconds: float | None) -> SegmentationRecord:
         """The record once it is no longer live, or as it is after `seconds`."""
         if not seconds or not record.live:
             return record
         ended: SegmentationRecord | None = None
-        with self.patience(seconds):
+        with self.limited_wait(seconds):
             ended = await self.records.ended(record.id)
         return ended or await self.segmentation(record.id, record.owner)
 
@@ -96,7 +96,7 @@ class Backend:
 
 
 @asynccontextmanager
-async def opened(settings: ServiceSettings) -> AsyncIterator[Backend]:
+async def open_backend(settings: ServiceSettings) -> AsyncIterator[Backend]:
     """The backend, until the process ends."""
     records = AsyncRecords(settings.redis_location)
     client = connect(settings.redis_location)
@@ -107,7 +107,9 @@ async def opened(settings: ServiceSettings) -> AsyncIterator[Backend]:
         backend = Backend(settings, records, jobs, blobs, KeyFile(settings.keys_file))
         with suppress(RedisError):  # it need not be up yet; the workers look too
             await to_thread.run_sync(check_layout, client)
-        await to_thread.run_sync(clear, backend.spool)  # of a process that was killed; what another one writes is held
+        await to_thread.run_sync(
+            delete_abandoned_files, backend.spool
+        )  # of a process that was killed; what another one writes is held
         yield backend
     finally:
         await records.close()
@@ -120,4 +122,4 @@ async def backend_of(request: Request) -> Backend:
     return backend
 
 
-Behind = Annotated[Backend, Depends(backend_of)]
+BackendDependency = Annotated[Backend, Depends(backend_of)]

@@ -72,7 +72,7 @@ class _Shared(Collector):
         redis, settings = self._backend.jobs.redis, self._backend.settings
         memory = redis.info("memory")
         stored = redis.hgetall(redis_keys.STORE_KEY)
-        told = counters.read(redis.hgetall(redis_keys.TALLY_KEY))
+        told = counters.read_counters(redis.hgetall(redis_keys.COUNTERS_KEY))
         yield _gauge("queue_jobs", "Jobs that wait in a queue.", "queue", self._backend.jobs.queues.depths())
         yield _gauge(
             "store_bytes",
@@ -81,7 +81,11 @@ class _Shared(Collector):
             dict(zip(names(stored), map(int, stored.values()), strict=True)),
         )
         for name, help_, value in (
-            ("live_segmentations", "Segmentations that are queued or running.", redis.scard(redis_keys.LIVE_KEY)),
+            (
+                "live_segmentations",
+                "Segmentations that are queued or running.",
+                redis.scard(redis_keys.LIVE_SEGMENTATIONS_KEY),
+            ),
             ("redis_used_bytes", "Memory that Redis uses.", memory["used_memory"]),
             ("redis_limit_bytes", "Memory that Redis may use; 0: all of its machine.", memory.get("maxmemory", 0)),
             ("disk_free_bytes", "Free on the disk of the data folder.", shutil.disk_usage(settings.data_dir).free),
@@ -100,14 +104,14 @@ def _gauge(name: str, help_: str, label: str, values: dict[str, int]) -> Metric:
     return family
 
 
-def _counter(name: str, help_: str, labels: list[str], told: "Told") -> Metric:
+def _counter(name: str, help_: str, labels: list[str], told: "WorkerCounters") -> Metric:
     family = CounterMetricFamily(f"caesura_{name}", help_, labels=labels)
     for given, value in told.get(name, ()):
         family.add_metric([given.get(label, "") for label in labels], value)
     return family
 
 
-def _histogram(name: str, help_: str, label: str, told: "Told") -> Metric:
+def _histogram(name: str, help_: str, label: str, told: "WorkerCounters") -> Metric:
     """Buckets are kept one by one, and told as Prometheus wants them: each with all that are smaller."""
     family = HistogramMetricFamily(f"caesura_{name}_seconds", help_, labels=[label])
     counts: dict[str, dict[str, float]] = {}
@@ -123,4 +127,4 @@ def _histogram(name: str, help_: str, label: str, told: "Told") -> Metric:
     return family
 
 
-Told = dict[str, list[tuple[dict[str, str], float]]]
+WorkerCounters = dict[str, list[tuple[dict[str, str], float]]]

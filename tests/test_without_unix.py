@@ -4,7 +4,7 @@ import json
 import subprocess
 import sys
 
-from caesura.service.commands.outputs import FORMS
+from caesura.service.commands.outputs import OUTPUT_FORMATS
 from tests.installation import take_npz
 
 MISSING_MODULES = ("fcntl", "resource", "pwd", "grp", "termios", "pty", "syslog")
@@ -53,10 +53,10 @@ def test_files_are_segmented(tmp_path, monkeypatch):
     """`caesura segment`, by a pattern, printed and written in every form."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "take.npz").write_bytes(take_npz())
-    forms = [f"--{form.replace('_', '-')}" for form in FORMS]
+    forms = [f"--{form.replace('_', '-')}" for form in OUTPUT_FORMATS]
     command = ["segment", "*.npz", "--motions", "2", "--json", "--out", "out", *forms]
     ended = run("from caesura.service.commands.cli import main\nmain(sys.argv[1:])", *command)
     assert ended.returncode == 0, ended.stderr
     assert json.loads(ended.stdout)["motions"] == 2
     assert json.loads((tmp_path / "out" / "take.json").read_text())["motions"] == 2
-    assert len(list((tmp_path / "out").iterdir())) == len(FORMS) + 1
+    assert len(list((tmp_path / "out").iterdir())) == len(OUTPUT_FORMATS) + 1

@@ -18,16 +18,16 @@ from redis.exceptions import RedisError
 from caesura.worker import logs
 from caesura.worker.private_folder import make_private
 from caesura.worker.process.rq_worker import CaesuraWorker
-from caesura.worker.process.worker_pool import Pool
-from caesura.worker.process.worker_registry import alive_here
-from caesura.worker.queue.auxiliary_jobs import sweep_sometimes
+from caesura.worker.process.worker_pool import WorkerPool
+from caesura.worker.process.worker_registry import has_live_worker_here
+from caesura.worker.queue.auxiliary_jobs import submit_sweep_if_due
 from caesura.worker.queue.jobs import Jobs
-from caesura.worker.queue.orphaned_jobs import Watch
+from caesura.worker.queue.orphaned_jobs import OrphanedJobWatch
 from caesura.worker.queue.queues import QUEUES
 from caesura.worker.records.connection import await_writes, connect
 from caesura.worker.records.layout_version import LayoutTooNew, check_layout
 from caesura.worker.settings import WorkerSettings
-from caesura.worker.store.temporary_files import clear
+from caesura.worker.store.temporary_files import delete_abandoned_files
 
 DEFAULT_GROUPS = [["analyse", "cut"], ["cut"]]
 
@@ -43,7 +43,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     settings = WorkerSettings()
     if options.check:
         sys.exit(0 if _alive(settings) else 1)
-    logs.configure(settings.log_format)
+    logs.configure_logging(settings.log_format)
     try:
         run(settings, options.queues or DEFAULT_GROUPS)
     except LayoutTooNew as refused:
@@ -59,19 +59,19 @@ def run(settings: WorkerSettings, groups: list[list[str]]) -> None:
     _choose_cache(settings)
     # Only now is it settled where compiled code is kept. The tasks are loaded for the forks to have them.
     from caesura.worker import tasks  # noqa: F401, PLC0415
-    from caesura.worker.process.warm_up import warm  # noqa: PLC0415
+    from caesura.worker.process.warm_up import warm_up  # noqa: PLC0415
 
-    warm()
+    warm_up()
     gc.freeze()  # what is loaded now stays: collecting it would copy the pages that the forks share
     jobs = Jobs.open(settings)
-    watch = Watch(jobs)
+    watch = OrphanedJobWatch(jobs)
 
     def tend() -> None:
         watch.look()
-        sweep_sometimes(jobs)
-        clear(settings.scratch_dir)
+        submit_sweep_if_due(jobs)
+        delete_abandoned_files(settings.scratch_dir)
 
-    Pool(groups, lambda queues: _work(queues, settings), tend, settings.stop_seconds).run()
+    WorkerPool(groups, lambda queues: _work(queues, settings), tend, settings.stop_seconds).run()
 
 
 def _work(queues: list[str], settings: WorkerSettings) -> None:
@@ -81,13 +81,13 @@ def _work(queues: list[str], settings: WorkerSettings) -> None:
     client = connect(settings.redis_location)
     await_writes(client)
     worker = CaesuraWorker(queues, client, Jobs.open(settings), prepare)
-    worker.saddle()
+    worker.prefork()
     worker.work(logging_level="INFO")
 
 
 def _alive(settings: WorkerSettings) -> bool:
     try:
-        return alive_here(connect(settings.redis_location))
+        return has_live_worker_here(connect(settings.redis_location))
     except RedisError:
         return False
 

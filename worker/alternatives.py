@@ -20,7 +20,7 @@ from caesura.worker.records import Records, redis_keys
 from caesura.worker.records.schema import SegmentationRecord
 
 
-def add_alternative(records: Records, identifier: str, document: SegmentationDocument) -> bool:
+def store_alternative(records: Records, identifier: str, document: SegmentationDocument) -> bool:
     """Keep one beside a result; False, and nothing kept, where the result is not there any more."""
     shown = document.model_copy(update={"id": None, "energy": ()}).model_dump_json()
     asked = str(document.parameters["motions"])
@@ -38,7 +38,7 @@ def add_alternative(records: Records, identifier: str, document: SegmentationDoc
             return True
 
 
-def recall(records: Records, wanted: SegmentationRecord, beside: str) -> SegmentationRecord | None:
+def restore_alternative(records: Records, wanted: SegmentationRecord, beside: str) -> SegmentationRecord | None:
     """Make the segmentation `wanted`, done, of what is stored beside the result `beside`; None where nothing is.
 
     None too where it was asked for before: then it is as it is.
@@ -69,13 +69,13 @@ def recall(records: Records, wanted: SegmentationRecord, beside: str) -> Segment
     def also(pipe: Pipeline, _: SegmentationRecord) -> None:
         pipe.set(redis_keys.segmentation_key(wanted.id, "document"), document)
         pipe.set(redis_keys.segmentation_key(wanted.id, "energy"), energy)
-        pipe.set(redis_keys.segmentation_key(wanted.id, "labels"), labels_of(alternative.segments))
-        pipe.zadd(redis_keys.USED_KEY, {wanted.animation: time.time()}, xx=True)
+        pipe.set(redis_keys.segmentation_key(wanted.id, "labels"), encode_labels(alternative.segments))
+        pipe.zadd(redis_keys.LAST_USED_KEY, {wanted.animation: time.time()}, xx=True)
 
     return records.segmentations.change(wanted.id, change, also, new=wanted)
 
 
-def labels_of(segments: tuple[Segment, ...]) -> bytes:
+def encode_labels(segments: tuple[Segment, ...]) -> bytes:
     """The motion of every frame: little-endian uint16."""
     labels = array("H")
     for segment in segments:

@@ -24,7 +24,7 @@ def gone_evenly(client: Redis, longest_gap: float, now: float) -> bool:
     The first look is compared with the last use of anything. Where the answer is no, the log says why and until when.
     """
     kept = client.hgetall(redis_keys.CLOCK_KEY)
-    newest = client.zrange(redis_keys.USED_KEY, -1, -1, withscores=True)
+    newest = client.zrange(redis_keys.LAST_USED_KEY, -1, -1, withscores=True)
     last = float(kept[b"last"]) if kept else float(newest[0][1]) if newest else now
     since = float(kept.get(b"since", 0.0))
     if not -SKEW_SECONDS <= now - last <= longest_gap:

@@ -25,7 +25,7 @@ _GIVEN = re.compile(r"[A-Za-z0-9._:-]{1,64}")
 
 
 @contextmanager
-def about(**ids: str) -> Iterator[None]:
+def log_context(**ids: str) -> Iterator[None]:
     """What is logged in this block is about these: `request`, `segmentation`, …"""
     before = _ABOUT.set({**_ABOUT.get(), **{name: value for name, value in ids.items() if value}})
     try:
@@ -44,7 +44,7 @@ def safe_request_id(given: str) -> str:
     return given if _GIVEN.fullmatch(given) else secrets.token_hex(8)
 
 
-def configure(form: Form) -> None:
+def configure_logging(form: Form) -> None:
     """Everything to stderr, in this form."""
     handler = logging.StreamHandler()
     handler.setFormatter(JsonLines() if form == "json" else TextLines(TEXT))

@@ -16,7 +16,7 @@ PR_SET_PDEATHSIG = 1
 _prctl = ctypes.CDLL(None).prctl if sys.platform == "linux" else None
 
 
-def die_with(parent: int, by: signal.Signals = signal.SIGKILL) -> None:
+def end_with_parent(parent: int, by: signal.Signals = signal.SIGKILL) -> None:
     """Call in a new child: let it get `by` once the process `parent`, which made it, has ended."""
     if _prctl is not None:
         _prctl(PR_SET_PDEATHSIG, by)
@@ -24,12 +24,12 @@ def die_with(parent: int, by: signal.Signals = signal.SIGKILL) -> None:
         os.kill(os.getpid(), by)
 
 
-def lifeline(by: signal.Signals = signal.SIGKILL) -> Callable[[], None]:
+def parent_watch(by: signal.Signals = signal.SIGKILL) -> Callable[[], None]:
     """`die_with` the calling process, as `subprocess.Popen(preexec_fn=…)` takes it."""
     if threading.current_thread() is not threading.main_thread():
         raise RuntimeError("start children from the main thread: their life hangs on the thread that made them")
     parent = os.getpid()
-    return lambda: die_with(parent, by)
+    return lambda: end_with_parent(parent, by)
 
 
 def parent_is_gone(parent: int) -> bool:

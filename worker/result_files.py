@@ -15,22 +15,22 @@ from urllib.parse import parse_qsl
 import numpy as np
 
 from caesura.core.document import SegmentationDocument
-from caesura.core.plot.layout import picture_of
-from caesura.core.plot.png import png
-from caesura.core.revision import revised
+from caesura.core.plot.layout import lay_out_picture
+from caesura.core.plot.png import render_png
+from caesura.core.revision import apply_revision
 from caesura.formats.clips.clip_options import ClipOptions
-from caesura.formats.clips.write import Parts, Scratch, Written, write_clips, write_key_poses
-from caesura.worker.process.job_quota import Allowance
+from caesura.formats.clips.write import Parts, Scratch, WrittenFile, write_clips, write_key_poses
+from caesura.worker.process.job_quota import JobQuota
 from caesura.worker.queue.job_problems import INTERNAL_ERROR, problem_of
 from caesura.worker.queue.queues import TimeLimit
 from caesura.worker.records import Records
 from caesura.worker.records.connection import tolerate_full_disk
 from caesura.worker.records.revisions import edits_of
 from caesura.worker.records.schema import ExportRecord, SegmentationRecord
-from caesura.worker.retention.deletion import forget_oldest_exports
+from caesura.worker.retention.deletion import delete_oldest_result_files
 from caesura.worker.settings import WorkerSettings
 from caesura.worker.store.blobs import BlobMissing, Blobs
-from caesura.worker.store.memory_maps import mapped_parts, scratch_space
+from caesura.worker.store.memory_maps import map_parts, scratch_space
 
 log = logging.getLogger(__name__)
 
@@ -38,11 +38,11 @@ MOST_EXPORTS = 16
 """Files made of one result that are kept, and answers why there is none: choices and revisions are many, and each may
 ask for a copy of the upload."""
 
-Options = dict[str, str]
+ResultFileOptions = dict[str, str]
 
 
 @dataclass(frozen=True)
-class Export:
+class ResultFileJob:
     """What a file is made of; `keep` stores it."""
 
     records: Records
@@ -58,7 +58,7 @@ class Export:
         return ExportRecord(key=key, media_type=media_type, created=time.time())
 
 
-def npz(export: Export, _: Options) -> ExportRecord:
+def npz(export: ResultFileJob, _: ResultFileOptions) -> ExportRecord:
     """`energy` (frames,) float32, `labels` (frames,) uint16, `key_frames` (keys,), `segments` (segments, 3) of
 
     start, end, motion; `frame_rate`; and the whole document as JSON in `document`.
@@ -77,40 +77,40 @@ def npz(export: Export, _: Options) -> ExportRecord:
     return export.keep(out.getvalue(), "application/octet-stream")
 
 
-def plot(export: Export, _: Options) -> ExportRecord:
+def plot(export: ResultFileJob, _: ResultFileOptions) -> ExportRecord:
     """The curve, its key-frames, the cuts and the segments in colour."""
     font = export.settings.font
-    return export.keep(png(picture_of(export.document), font.read_bytes() if font else None), "image/png")
+    return export.keep(render_png(lay_out_picture(export.document), font.read_bytes() if font else None), "image/png")
 
 
-def clips(export: Export, options: Options) -> ExportRecord:
+def clips(export: ResultFileJob, options: ResultFileOptions) -> ExportRecord:
     """The upload with its take in clips."""
     chosen = ClipOptions.of(options)
     return _of_upload(export, lambda parts, scratch: write_clips(parts, export.document, chosen, scratch))
 
 
-def keyframes(export: Export, _: Options) -> ExportRecord:
+def keyframes(export: ResultFileJob, _: ResultFileOptions) -> ExportRecord:
     """The upload with its take reduced to key poses."""
     return _of_upload(export, lambda parts, scratch: write_key_poses(parts, export.document, scratch))
 
 
-def _of_upload(export: Export, write: Callable[[Parts, Scratch], Written]) -> ExportRecord:
+def _of_upload(export: ResultFileJob, write: Callable[[Parts, Scratch], WrittenFile]) -> ExportRecord:
     """A file made of the uploaded one, which must still be there."""
     animation = export.records.animations.one(export.record.animation)
     if animation is None or not animation.parts:
         raise BlobMissing(export.record.animation)
     settings = export.settings
-    allowance = Allowance(settings.job_memory_bytes, settings.job_seconds)
-    with mapped_parts(export.blobs, animation.parts, allowance.grant) as parts:
-        written = write(parts, scratch_space(settings.scratch_dir, allowance.grant, settings.min_free_bytes))
+    allowance = JobQuota(settings.job_memory_bytes, settings.job_seconds)
+    with map_parts(export.blobs, animation.parts, allowance.extend) as parts:
+        written = write(parts, scratch_space(settings.scratch_dir, allowance.extend, settings.min_free_bytes))
         return export.keep(written.pieces, written.media_type)
 
 
-Writer = Callable[[Export, Options], ExportRecord]
-WRITERS: dict[str, Writer] = {"npz": npz, "png": plot, "clips": clips, "keyframes": keyframes}
+ResultFileWriter = Callable[[ResultFileJob, ResultFileOptions], ExportRecord]
+WRITERS: dict[str, ResultFileWriter] = {"npz": npz, "png": plot, "clips": clips, "keyframes": keyframes}
 
 
-def run(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: str, form: str) -> None:
+def make_result_file(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: str, form: str) -> None:
     """Write one form of one result, and say where it is, or why there is none; a bug is logged."""
     name, _, query = form.partition("?")
     options = dict(parse_qsl(query))
@@ -122,8 +122,8 @@ def run(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: st
         return  # deleted meanwhile
     result = SegmentationDocument.model_validate_json(document)
     if revision:
-        result = revised(result, revision, edits)
-    export = Export(records, blobs, settings, record, result, energy)
+        result = apply_revision(result, revision, edits)
+    export = ResultFileJob(records, blobs, settings, record, result, energy)
     try:
         made = WRITERS[name](export, options)
     except (Exception, TimeLimit) as fault:
@@ -135,4 +135,4 @@ def run(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: st
         written = records.exports.write(identifier, form, made)
     if not written and made.key is not None:
         blobs.delete(made.key)
-    forget_oldest_exports(records, blobs, identifier, MOST_EXPORTS)
+    delete_oldest_result_files(records, blobs, identifier, MOST_EXPORTS)

@@ -7,12 +7,13 @@ whoever sets the time of a machine. Redis is no Python, and keeps its own time.
 import datetime
 import os
 import time
+from datetime import datetime as system_datetime
 from pathlib import Path
 from typing import Any
 
 OFFSET = Path(os.environ["JUMPING_CLOCK"])
 
-system_time, system_datetime = time.time, datetime.datetime
+system_time = time.time
 
 
 def jumped_time() -> float:

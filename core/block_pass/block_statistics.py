@@ -6,16 +6,16 @@ import numpy as np
 from jaxtyping import Float32, UInt16
 
 from caesura.core.animation import Animation
-from caesura.core.block_pass.features import Basis
-from caesura.core.block_pass.histograms import Histograms
-from caesura.core.block_pass.measured_body import Body
-from caesura.core.block_pass.quantisation import Coding
+from caesura.core.block_pass.features import FeatureBasis
+from caesura.core.block_pass.histograms import ThreadHistograms
+from caesura.core.block_pass.measured_body import MeasuredBody
+from caesura.core.block_pass.quantisation import Quantisation
 from caesura.core.frames.blocks import Block
-from caesura.core.frames.sampled_frames import draw
+from caesura.core.frames.sampled_frames import read_vertices
 
 
 @dataclass(frozen=True)
-class Page:
+class BlockStatistics:
     """One block of frames, measured: what is compared over the take, and what is kept of every frame."""
 
     largest: float
@@ -25,22 +25,22 @@ class Page:
 
 
 @dataclass(frozen=True)
-class Surveyor:
+class BlockPass:
     """Measures a block of frames. Safe from several threads. Codes below `floor` are not told apart in histograms."""
 
     animation: Animation
-    body: Body
+    body: MeasuredBody
     reach: float
-    coding: Coding
+    coding: Quantisation
     floor: int
     noise: Float32[np.ndarray, "columns"]
-    projections: Basis | None
+    projections: FeatureBasis | None
     kept: UInt16[np.ndarray, "codes"]
-    histograms: Histograms
+    histograms: ThreadHistograms
 
-    def measure(self, block: Block) -> Page:
+    def measure(self, block: Block) -> BlockStatistics:
         """Draw the block, and measure it tile by tile."""
-        vertices = draw(self.animation, block)
+        vertices = read_vertices(self.animation, block)
         means, histogram = self.body.patches.empty(len(vertices)), self.histograms.take()
         codes = self._kept(block)
         largest, above = 0.0, 0
@@ -55,14 +55,14 @@ class Surveyor:
         described = (means.T, apart)
         if self.projections is not None:
             described = (self.projections[0].project(means.T), self.projections[1].project(apart))
-        return Page(largest, above, float(np.abs(apart).max(initial=0)), described)
+        return BlockStatistics(largest, above, float(np.abs(apart).max(initial=0)), described)
 
     def codes(self, block: Block) -> UInt16[np.ndarray, "frames columns"]:
         """The codes of the block: as kept, or from the vertices, drawn again."""
         codes = self._kept(block)
         if codes is None:
             codes = np.empty((block[1] - block[0], self.body.surface.columns), np.uint16)
-            for columns, tile in self.body.surface.tiles(draw(self.animation, block)):
+            for columns, tile in self.body.surface.tiles(read_vertices(self.animation, block)):
                 self.coding.write(tile, codes, columns.start)
         return codes
 

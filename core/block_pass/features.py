@@ -4,28 +4,30 @@ import numpy as np
 
 from caesura.core.analysis import Features
 from caesura.core.animation import Animation
-from caesura.core.block_pass.measured_body import Body
-from caesura.core.block_pass.projection import Projection, sample_frames
-from caesura.core.frames.blocks import blocks_of, frames_per_block, map_blocks, threads_at_once
-from caesura.core.frames.sampled_frames import draw_frames
-from caesura.core.progress import Progress, ignore
+from caesura.core.block_pass.measured_body import MeasuredBody
+from caesura.core.block_pass.projection import Projection, choose_sample_frames
+from caesura.core.frames.blocks import frames_per_block, map_blocks, split_into_blocks, threads_at_once
+from caesura.core.frames.sampled_frames import read_sampled_frames
+from caesura.core.progress import Progress, ignore_progress
 
 HELD_BYTES = 64 * 2**20
 """Memory for the whole descriptors of a take; where they do not fit, the sample is drawn beforehand."""
 
-Basis = tuple[Projection, Projection]
+FeatureBasis = tuple[Projection, Projection]
 """The components of the patch means of the descriptor, and of the pair distances."""
 
 
-def basis(animation: Animation, body: Body, threads: int = 1, progress: Progress = ignore) -> Basis | None:
+def learn_feature_basis(
+    animation: Animation, body: MeasuredBody, threads: int = 1, progress: Progress = ignore_progress
+) -> FeatureBasis | None:
     """Components from at most 2,000 evenly spaced frames; None where the descriptors of all frames can be held."""
     if 4 * animation.frames * (body.patches.patches + len(body.pairs.first)) <= HELD_BYTES:
         return None
-    frames = sample_frames(animation.frames)
-    blocks = blocks_of(len(frames), frames_per_block(animation.vertex_count))
+    frames = choose_sample_frames(animation.frames)
+    blocks = split_into_blocks(len(frames), frames_per_block(animation.vertex_count))
 
     def described(block: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
-        return body.describe(draw_frames(animation, frames[slice(*block)]))
+        return body.describe(read_sampled_frames(animation, frames[slice(*block)]))
 
     threads = threads_at_once(threads, animation.vertex_count)
     pages = list(map_blocks(described, blocks, threads, progress=progress, stage="sample", total=len(blocks)))
@@ -33,8 +35,8 @@ def basis(animation: Animation, body: Body, threads: int = 1, progress: Progress
     return Projection.of(strain), Projection.of(distances)
 
 
-def features(
-    projections: Basis | None,
+def extract_features(
+    projections: FeatureBasis | None,
     described: tuple[np.ndarray, np.ndarray],
     changing: tuple[bool, bool],
     descriptor: str = "strain",
@@ -44,7 +46,7 @@ def features(
     A descriptor that does not change beyond rounding has no columns: its components would be noise.
     """
     if projections is None:
-        sample = sample_frames(len(described[0]))
+        sample = choose_sample_frames(len(described[0]))
         projections = (Projection.of(described[0][sample]), Projection.of(described[1][sample]))
         described = (projections[0].project(described[0]), projections[1].project(described[1]))
     names = (descriptor, "pair-distances")

@@ -8,7 +8,7 @@ from jaxtyping import Int
 from caesura.core.block_pass.quantisation import CODES
 
 
-class Histograms:
+class ThreadHistograms:
     """Counts of codes for as many threads as ask: integers, whose sum is the same in any order."""
 
     def __init__(self) -> None:

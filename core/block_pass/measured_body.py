@@ -10,19 +10,19 @@ from caesura.core.descriptors.pair_distances import PairDistances
 from caesura.core.descriptors.pair_strain import PairStrain
 from caesura.core.descriptors.patch_means import PatchMeans
 from caesura.core.descriptors.strain import TILE, TriangleStrain
-from caesura.core.descriptors.table import SURFACES, Subject, Surface
+from caesura.core.descriptors.table import DESCRIPTORS, Descriptor, DescriptorInput
 from caesura.core.document import Notice
 from caesura.core.errors import InvalidModel
-from caesura.core.mesh.patches import patch_of_triangles
-from caesura.core.mesh.triangle_order import coherent_order
+from caesura.core.mesh.patches import assign_patches
+from caesura.core.mesh.triangle_order import order_triangles
 from caesura.core.parameters import Parameters
 
 
 @dataclass(frozen=True)
-class Body:
+class MeasuredBody:
     """What is measured on every frame: the descriptor, strain or another, its means on patches, and pair distances."""
 
-    surface: Surface
+    surface: Descriptor
     patches: PatchMeans
     pairs: PairDistances
 
@@ -37,7 +37,7 @@ class Body:
     @classmethod
     def of(
         cls, animation: Animation, rest: Float32[np.ndarray, "V 3"], parameters: Parameters
-    ) -> "tuple[Body, tuple[Notice, ...]]":
+    ) -> "tuple[MeasuredBody, tuple[Notice, ...]]":
         """The chosen descriptor of the triangles, or of pairs of points where there are none; and what must be said.
 
         Raises `InvalidModel` where there are triangles and none has area at rest.
@@ -52,26 +52,26 @@ class Body:
             limbs = PairStrain.of_limbs(pairs)
             each = PatchMeans.of(np.arange(limbs.columns), np.ones(limbs.columns))
             return cls(limbs, each, pairs), (notice,)
-        patch = patch_of_triangles(rest, triangles)
-        order = coherent_order(rest, triangles, TILE)
+        patch = assign_patches(rest, triangles)
+        order = order_triangles(rest, triangles, TILE)
         strain = TriangleStrain.of(rest, triangles, order, parameters.strain, parameters.scale_invariant)
         if strain.columns == 0:
             detail = "No triangle of the rest shape has area, so nothing can be strained. Send a mesh with a surface."
             raise InvalidModel("degenerate-mesh", detail, pointer="/meshes" if animation.gltf is not None else None)
         if parameters.descriptor == "pair-distances":
-            return cls(PairStrain.of(pairs), NO_PATCHES, pairs), _left_out(strain)
-        surface = SURFACES[parameters.descriptor](Subject(animation, rest, strain, parameters))
-        return cls(surface, PatchMeans.of(patch[strain.triangles], strain.areas), pairs), _left_out(strain)
+            return cls(PairStrain.of(pairs), NO_PATCHES, pairs), _left_out_notice(strain)
+        surface = DESCRIPTORS[parameters.descriptor](DescriptorInput(animation, rest, strain, parameters))
+        return cls(surface, PatchMeans.of(patch[strain.triangles], strain.areas), pairs), _left_out_notice(strain)
 
-    def by_pairs(self) -> "Body":
+    def by_pairs(self) -> "MeasuredBody":
         """The same body, with the strain of its pairs of points in place of its triangles'."""
-        return Body(PairStrain.of(self.pairs), NO_PATCHES, self.pairs)
+        return MeasuredBody(PairStrain.of(self.pairs), NO_PATCHES, self.pairs)
 
 
 NO_PATCHES = PatchMeans.of(np.zeros(0, np.int64), np.zeros(0))
 
 
-def _left_out(strain: TriangleStrain) -> tuple[Notice, ...]:
+def _left_out_notice(strain: TriangleStrain) -> tuple[Notice, ...]:
     if strain.left_out == 0:
         return ()
     every = strain.left_out + strain.columns

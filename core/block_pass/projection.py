@@ -32,7 +32,7 @@ class Projection:
         mean = sample.mean(axis=0, dtype=np.float64)
         centred = sample - mean
         with threadpool_limits(1):
-            variance, directions = _principal(centred, components)
+            variance, directions = _principal_components(centred, components)
         total = float(np.einsum("sd,sd->", centred, centred))
         largest = np.abs(directions).argmax(axis=0) if directions.size else np.zeros(0, np.int64)
         signs = np.where(directions[largest, np.arange(directions.shape[1])] < 0, -1.0, 1.0)
@@ -47,14 +47,14 @@ class Projection:
         return np.asarray((block - self.mean) @ self.components, np.float32)
 
 
-def sample_frames(frames: int, most: int = SAMPLE) -> Int[np.ndarray, "sample"]:
+def choose_sample_frames(frames: int, most: int = SAMPLE) -> Int[np.ndarray, "sample"]:
     """At most `most` frames, evenly spaced from the first to the last: what the projection is learnt from."""
     if frames <= most:
         return np.arange(frames)
     return np.linspace(0, frames - 1, most).round().astype(np.int64)
 
 
-def _principal(
+def _principal_components(
     centred: Float[np.ndarray, "sample D"], components: int
 ) -> tuple[Float[np.ndarray, "C"], Float[np.ndarray, "D C"]]:
     """Leading eigenvalues of the scatter matrix and their unit eigenvectors, largest first."""

@@ -21,13 +21,13 @@ PERCENTILE = 99.9
 
 
 @dataclass(frozen=True)
-class Coding:
+class Quantisation:
     """Codes of 2⁻¹² / gain (and all below: code 0) to 16 / gain (and all above)."""
 
     gain: float
 
     @classmethod
-    def around(cls, largest: float) -> "Coding":
+    def around(cls, largest: float) -> "Quantisation":
         """The coding for values whose largest so far is `largest`: 8 times more still fits."""
         return cls(2.0 ** -float(np.clip(np.floor(np.log2(largest)), *EXPONENTS)) if largest > 0 else 1.0)
 
@@ -89,9 +89,9 @@ class Coding:
         highest = int(histogram[-1]) == 0 or scale * (bins - 1) / bins < self.decode(CODES - 1.0)
         return highest and scale / bins >= self.decode(1.0)
 
-    def wider(self) -> "Coding":
+    def wider(self) -> "Quantisation":
         """The coding for values 256 times as large."""
-        return Coding(self.gain / 2**8)
+        return Quantisation(self.gain / 2**8)
 
     def reaches_percentile(self, histogram: Int[np.ndarray, "codes"], percent: float = PERCENTILE) -> bool:
         """Whether the percentile is below the last code, which stands for everything above it too.
@@ -113,9 +113,9 @@ class Coding:
         return self.decode(code + min(max(inside, 0.0), 1.0))
 
 
-def normaliser(
+def find_normalising_strain(
     rule: str | float,
-    coding: Coding,
+    coding: Quantisation,
     histogram: Int[np.ndarray, "codes"],
     largest: float,
     share_above_noise: float,

@@ -17,8 +17,8 @@ import numpy as np
 from jaxtyping import Float32
 
 from caesura.core.descriptors.strain import ROUNDING
-from caesura.core.mesh.angles import AngleDefect, Folding, Rows, Totals
-from caesura.core.mesh.edges import hinges
+from caesura.core.mesh.angles import AngleDefect, FoldAngles, Rows, Totals
+from caesura.core.mesh.edges import find_hinges
 from caesura.core.mesh.mesh import Mesh
 
 
@@ -38,7 +38,7 @@ class Curvature:
     @classmethod
     def of(cls, mesh: Mesh, kind: str = "gaussian") -> "Curvature":
         """`kind` is gaussian or mean."""
-        flat, fold = AngleDefect.of(mesh), Folding(hinges(mesh.corners))
+        flat, fold = AngleDefect.of(mesh), FoldAngles(find_hinges(mesh.corners))
         total = flat.total if kind == "gaussian" else fold.total
         rounding = flat.rounding(mesh) if kind == "gaussian" else fold.rounding(mesh)
         around = _sum(mesh, slice(None), mesh.cells())

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float, Int, Int32
 
 from caesura.core.kernels import descriptors
-from caesura.core.mesh.farthest_points import spread
+from caesura.core.mesh.farthest_points import sample_farthest_points
 
 POINTS = 150
 NEAREST = 10
@@ -36,7 +36,7 @@ class PairDistances:
         """
         used = np.zeros(len(rest), bool)
         used[triangles.ravel() if len(triangles) else slice(None)] = True
-        points = spread(rest, POINTS, used).chosen
+        points = sample_farthest_points(rest, POINTS, used).chosen
         place = rest[points].astype(np.float64)
         distance = np.linalg.norm(place[:, None] - place[None, :], axis=2)
         a, b = _pairs(distance)

@@ -15,12 +15,12 @@ from jaxtyping import Float32
 from caesura.core.animation import Animation
 from caesura.core.descriptors.strain import TriangleStrain
 from caesura.core.mesh.mesh import Mesh
-from caesura.core.mesh.welding import weld
+from caesura.core.mesh.welding import weld_vertices
 from caesura.core.parameters import Parameters
 
 
 @runtime_checkable
-class Surface(Protocol):
+class Descriptor(Protocol):
     """Values of a body: of its triangles, or of its pairs of points where it has none that change."""
 
     @property
@@ -37,7 +37,7 @@ class Surface(Protocol):
 
 
 @dataclass(frozen=True)
-class Subject:
+class DescriptorInput:
     """What is to be measured. `strain` knows which triangles have area and in what order; `mesh` is made when asked."""
 
     animation: Animation
@@ -49,28 +49,28 @@ class Subject:
     def mesh(self) -> Mesh:
         """The same triangles, in the same order, welded."""
         triangles = self.animation.triangles[self.strain.triangles]
-        return Mesh.of(self.rest, triangles, weld(self.animation, self.rest), self.parameters.scale_invariant)
+        return Mesh.of(self.rest, triangles, weld_vertices(self.animation, self.rest), self.parameters.scale_invariant)
 
 
-def _geodesic(subject: Subject) -> Surface:
+def _geodesic(subject: DescriptorInput) -> Descriptor:
     from caesura.core.descriptors.geodesic import Geodesic  # noqa: PLC0415
 
     return Geodesic.of(subject.mesh)
 
 
-def _heat_kernel(subject: Subject) -> Surface:
+def _heat_kernel(subject: DescriptorInput) -> Descriptor:
     from caesura.core.descriptors.heat_kernel import HeatKernel  # noqa: PLC0415
 
     return HeatKernel.of(subject.mesh)
 
 
-def _curvature(subject: Subject) -> Surface:
+def _curvature(subject: DescriptorInput) -> Descriptor:
     from caesura.core.descriptors.curvature import Curvature  # noqa: PLC0415
 
     return Curvature.of(subject.mesh, subject.parameters.curvature)
 
 
-SURFACES: dict[str, Callable[[Subject], Surface]] = {
+DESCRIPTORS: dict[str, Callable[[DescriptorInput], Descriptor]] = {
     "strain": lambda subject: subject.strain,
     "geodesic": _geodesic,
     "heat-kernel": _heat_kernel,

@@ -19,7 +19,7 @@ Bins = UInt8[np.ndarray, "_ columns"]
 
 
 @dataclass(frozen=True)
-class Pairing:
+class FramePairing:
     """The bins of some frames, and those of the frames l later, in the pieces at hand; of so many levels."""
 
     pieces: tuple[tuple[Bins, Bins], ...]
@@ -35,7 +35,7 @@ class Pairing:
         return np.concatenate(counted)
 
 
-def pairings(blocks: Iterable[Bins], lag: int, levels: int) -> Iterator[Pairing]:
+def plan_frame_pairings(blocks: Iterable[Bins], lag: int, levels: int) -> Iterator[FramePairing]:
     """Join every frame with the one `lag` frames later, as the blocks come; holds the last `lag` frames."""
     held: deque[np.ndarray] = deque()
     behind = 0  # frames that were read and have not met their partner
@@ -52,23 +52,25 @@ def pairings(blocks: Iterable[Bins], lag: int, levels: int) -> Iterator[Pairing]
             if width < len(first):
                 held.appendleft(first[width:])
         if pieces:
-            yield Pairing(tuple(pieces), levels)
+            yield FramePairing(tuple(pieces), levels)
 
 
-def sliding_sums(counts: Iterable[Int[np.ndarray, "_ levels2"]], length: int) -> Iterator[Int[np.ndarray, "_ levels2"]]:
+def compute_sliding_sums(
+    counts: Iterable[Int[np.ndarray, "_ levels2"]], length: int
+) -> Iterator[Int[np.ndarray, "_ levels2"]]:
     """C_{m−l+1} + … + C_m for every m ≥ l − 1, in as many pieces as come; O(1) a frame whatever the length."""
     before: np.ndarray | None = None
     for piece in counts:
         recent = piece if before is None else np.concatenate([before, piece])
         sums = np.empty((max(len(recent) - length + 1, 0), recent.shape[1]), np.int64)
-        counting.slide(recent, length, sums)
+        counting.slide_window(recent, length, sums)
         before = recent[max(len(recent) - length + 1, 0) :]
         if len(sums):
             yield sums
 
 
-def joint_entropy(counts: Int[np.ndarray, "frames levels2"]) -> Float[np.ndarray, "frames"]:
+def compute_joint_entropy(counts: Int[np.ndarray, "frames levels2"]) -> Float[np.ndarray, "frames"]:
     """H = −Σ P ln P with P = counts / Σ counts (Eq. 2), in nats: 0 to ln B². Nothing counted: 0."""
     entropy = np.empty(len(counts))
-    counting.entropy(np.ascontiguousarray(counts, np.int64), entropy)
+    counting.entropy_of_counts(np.ascontiguousarray(counts, np.int64), entropy)
     return entropy

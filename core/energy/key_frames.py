@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 
-def local_maxima(energy: Float[np.ndarray, "frames"]) -> Int[np.ndarray, "peaks"]:
+def find_local_maxima(energy: Float[np.ndarray, "frames"]) -> Int[np.ndarray, "peaks"]:
     """Every frame that rises above its neighbours; of equal neighbours the first. NaN is lower than anything.
 
     A curve that never changes has no maximum: nothing happens in it. An end of the curve can be one.
@@ -24,7 +24,7 @@ def local_maxima(energy: Float[np.ndarray, "frames"]) -> Int[np.ndarray, "peaks"
     return np.asarray(starts[rises & falls & np.isfinite(level)])
 
 
-def key_frames(
+def extract_key_frames(
     energy: Float[np.ndarray, "frames"], peaks: Int[np.ndarray, "peaks"], window: int, threshold: float
 ) -> Int[np.ndarray, "keys"]:
     """The peaks that are the highest of the `window` (ω) frames centred on them, and not below `threshold` · max H.

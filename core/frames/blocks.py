@@ -12,7 +12,7 @@ from itertools import islice
 from typing import TypeVar
 
 from caesura.core.kernels.descriptors import WIDTH
-from caesura.core.progress import Progress, ignore
+from caesura.core.progress import Progress, ignore_progress
 
 BLOCK_BYTES = 192 * 2**20
 BLOCKS_BYTES = 4 * BLOCK_BYTES
@@ -50,7 +50,7 @@ def threads_at_once(threads: int, vertex_count: int, columns: int = 0) -> int:
     return max(min(threads, BLOCKS_BYTES // max(block, 1)), 1)
 
 
-def blocks_of(frames: int, size: int) -> list[Block]:
+def split_into_blocks(frames: int, size: int) -> list[Block]:
     """[0, frames) in blocks of `size` frames, the last one shorter."""
     return [(start, min(start + size, frames)) for start in range(0, frames, size)]
 
@@ -60,7 +60,7 @@ def map_blocks(
     items: Iterable[Item],
     threads: int,
     *,
-    progress: Progress = ignore,
+    progress: Progress = ignore_progress,
     stage: str = "",
     total: int = 0,
 ) -> Iterator[Result]:
@@ -83,14 +83,14 @@ def map_blocks(
                 ahead.extend(pool.submit(function, item) for item in islice(source, threads + 1 - len(ahead)))
                 if not ahead:
                     return
-                yield _awaited(ahead.popleft(), lambda: progress(stage, done / (total or 1)))  # noqa: B023  called at once
+                yield _wait_for(ahead.popleft(), lambda: progress(stage, done / (total or 1)))  # noqa: B023  called at once
                 done += 1
         finally:
             for waiting in ahead:
                 waiting.cancel()
 
 
-def _awaited(future: "Future[Result]", heartbeat: Callable[[], None]) -> Result:
+def _wait_for(future: "Future[Result]", heartbeat: Callable[[], None]) -> Result:
     heartbeat()
     while True:
         try:

@@ -11,17 +11,17 @@ from caesura.core.frames.blocks import Block
 from caesura.core.kernels.descriptors import REACH, largest_bits
 
 
-def draw(animation: Animation, block: Block) -> Float32[np.ndarray, "frames V 3"]:
+def read_vertices(animation: Animation, block: Block) -> Float32[np.ndarray, "frames V 3"]:
     """Frames [start, stop). Raises `InvalidModel` with frame and vertex of a NaN, an infinity or what is above 1e15."""
     vertices = np.ascontiguousarray(animation.vertices(*block), dtype=np.float32)
     if not largest_coordinate(vertices) <= REACH:  # NaN is not either
-        _refuse(vertices, range(*block))
+        _refuse_not_finite(vertices, range(*block))
     return vertices
 
 
-def draw_frames(animation: Animation, frames: Int[np.ndarray, "n"]) -> Float32[np.ndarray, "n V 3"]:
+def read_sampled_frames(animation: Animation, frames: Int[np.ndarray, "n"]) -> Float32[np.ndarray, "n V 3"]:
     """Some frames, in the order given."""
-    return np.concatenate([draw(animation, (frame, frame + 1)) for frame in frames.tolist()])
+    return np.concatenate([read_vertices(animation, (frame, frame + 1)) for frame in frames.tolist()])
 
 
 def largest_coordinate(vertices: Float32[np.ndarray, "frames V 3"]) -> float:
@@ -29,7 +29,7 @@ def largest_coordinate(vertices: Float32[np.ndarray, "frames V 3"]) -> float:
     return float(np.int32(largest_bits(vertices.reshape(-1).view(np.int32))).view(np.float32))
 
 
-def _refuse(vertices: Float32[np.ndarray, "frames V 3"], frames: Sequence[int]) -> None:
+def _refuse_not_finite(vertices: Float32[np.ndarray, "frames V 3"], frames: Sequence[int]) -> None:
     frame, vertex, _ = np.argwhere(~(np.abs(vertices) <= REACH))[0].tolist()
     value = vertices[frame, vertex][~(np.abs(vertices[frame, vertex]) <= REACH)][0]
     raise InvalidModel(

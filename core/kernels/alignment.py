@@ -11,7 +11,7 @@ Ints = NDArray[np.int64]
 
 
 @njit(nogil=True, cache=True, fastmath=FAST)
-def alike(kernel: Floats, weights: Floats, bounds: Ints, out: Floats) -> None:
+def align_segments(kernel: Floats, weights: Floats, bounds: Ints, out: Floats) -> None:
     """out[i, j]: the dynamic time alignment kernel of segments i and j, bounds[i] … bounds[i+1] each.
 
     The dearest path through the kernel from corner to corner, where a step pays the weights of the samples it
@@ -43,7 +43,7 @@ def alike(kernel: Floats, weights: Floats, bounds: Ints, out: Floats) -> None:
 
 
 @njit(nogil=True, cache=True, fastmath=FAST)
-def recut(
+def cut_anew(
     kernel: Floats, weights: Floats, bounds: Ints, labels: Ints, spread: Floats, longest: int, head: Ints, group: Ints
 ) -> float:
     """The best segmentation against given groups of segments: where the last segment of the first v+1 samples begins
@@ -120,7 +120,7 @@ def _advance(before: Floats, now: Floats, x: int, first: bool, a: float, b: floa
 
 
 @njit(nogil=True, cache=True)
-def persistent(kernel: Floats, longest: int, out: Floats) -> None:
+def persistent_likeness(kernel: Floats, longest: int, out: Floats) -> None:
     """out[i, j], i < j: the most that i and j are alike together with a pair on their diagonal, up to `longest` away.
 
     Two such pairs (i, j) and (i+w, j+w) raise all four of i, i+w against j, j+w to the lesser of the two.
@@ -142,7 +142,7 @@ def persistent(kernel: Floats, longest: int, out: Floats) -> None:
 
 
 @njit(nogil=True, cache=True)
-def pure(labels: Ints, groups: int, shortest: int, longest: int, as_measured: bool, head: Ints) -> None:
+def pure_segments(labels: Ints, groups: int, shortest: int, longest: int, as_measured: bool, head: Ints) -> None:
     """head[v]: where the last segment of the first v+1 samples begins, when segments hold as few strangers as can be.
 
     A stranger is a sample whose label is not its segment's most frequent. Where no segmentation of the first v+1

@@ -19,7 +19,7 @@ TOGETHER = 16
 
 
 @njit(nogil=True, cache=True, inline="always")
-def code_of(bits: np.int32, lowest: np.int32) -> np.uint16:
+def quantise(bits: np.int32, lowest: np.int32) -> np.uint16:
     """The leading bits of a float32 ≥ 0, given as the integer it spells, from `lowest` on, in 16 bits."""
     return np.uint16(min(max(np.int32(np.int32(bits >> SHIFT) - lowest), np.int32(0)), np.int32(65535)))
 
@@ -43,7 +43,7 @@ def count_codes(
         largest, above = max(largest, top), above + more
         for f in range(row.size if top >= least else 0):
             if row[f] >= least:
-                histogram[code_of(row[f], lowest)] += 1
+                histogram[quantise(row[f], lowest)] += 1
                 counted += 1
     histogram[0] += tile.size - counted
     return largest, above
@@ -56,10 +56,10 @@ def write_codes(tile: Bits, lowest: np.int32, codes: Codes, column: int) -> None
     for start in range(0, together, TOGETHER):
         for f in range(tile.shape[1]):
             for t in range(TOGETHER):  # a constant, so that the loop is unrolled
-                codes[f, np.uint64(column + start + t)] = code_of(tile[start + t, f], lowest)
+                codes[f, np.uint64(column + start + t)] = quantise(tile[start + t, f], lowest)
     for t in range(together, tile.shape[0]):
         for f in range(tile.shape[1]):
-            codes[f, column + t] = code_of(tile[t, f], lowest)
+            codes[f, column + t] = quantise(tile[t, f], lowest)
 
 
 @njit(nogil=True, cache=True)
@@ -87,7 +87,7 @@ def count_pairs(first: Bins, second: Bins, levels: int, counts: Bits) -> None:
 
 
 @njit(nogil=True, cache=True)
-def slide(counts: Bits, length: int, sums: Sums) -> None:
+def slide_window(counts: Bits, length: int, sums: Sums) -> None:
     """sums[m] = counts[m] + … + counts[m + length − 1], each from the one before it."""
     if sums.shape[0] == 0:
         return
@@ -102,7 +102,7 @@ def slide(counts: Bits, length: int, sums: Sums) -> None:
 
 
 @njit(nogil=True, cache=True)
-def entropy(counts: Sums, out: NDArray[np.float64]) -> None:
+def entropy_of_counts(counts: Sums, out: NDArray[np.float64]) -> None:
     """out[m] = −Σ P ln P of P = counts[m] / Σ counts[m] (Eq. 2); a logarithm only where a count has changed."""
     cells = counts.shape[1]
     terms, known = np.zeros(cells), np.zeros(cells, np.int64)

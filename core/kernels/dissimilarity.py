@@ -11,7 +11,7 @@ Ints = NDArray[np.int64]
 
 
 @njit(nogil=True, cache=True, fastmath=FAST)
-def partition(values: Floats, shortest: int, least: Floats, head: NDArray[np.int32]) -> None:
+def best_partition(values: Floats, shortest: int, least: Floats, head: NDArray[np.int32]) -> None:
     """least[e, n]: the least Σ of average distances within n segments of the first e frames; head[e, n]: where the last
     of them begins. The shorter last segment wins a tie.
 
@@ -37,7 +37,7 @@ def partition(values: Floats, shortest: int, least: Floats, head: NDArray[np.int
 
 
 @njit(nogil=True, cache=True, fastmath=FAST)
-def between(values: Floats, bounds: Ints, out: Floats) -> None:
+def mean_dissimilarity(values: Floats, bounds: Ints, out: Floats) -> None:
     """out[i, j]: the average distance of the frames of segment i to those of segment j, zero for i = j."""
     for i in range(len(out)):
         out[i, i] = 0.0

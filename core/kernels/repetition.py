@@ -9,7 +9,7 @@ Ints = NDArray[np.int64]
 
 
 @njit(nogil=True, cache=True)
-def cheapest(cost: Floats, lags: Ints, came_from: Ints) -> None:
+def cheapest_repetition_ends(cost: Floats, lags: Ints, came_from: Ints) -> None:
     """came_from[e]: the end before e in the cheapest row of ends from 0 to e, −1 where no row of lags leads there.
 
     `cost[e, i]` is what ending at e costs, `lags[i]` after the end before. The first of equals.

@@ -7,7 +7,7 @@ from jaxtyping import Float32, Float64, Int
 
 from caesura.core.descriptors.strain import TILE
 from caesura.core.kernels import descriptors
-from caesura.core.mesh.edges import edges_of
+from caesura.core.mesh.edges import list_edges
 from caesura.core.mesh.mesh import Mesh
 
 Rows = Float32[np.ndarray, "P 3 frames"]
@@ -24,7 +24,7 @@ class AngleDefect:
     @classmethod
     def of(cls, mesh: Mesh) -> "AngleDefect":
         """A point is on a border where one of its edges has a single triangle."""
-        edges, which = edges_of(mesh.corners)
+        edges, which = list_edges(mesh.corners)
         border = edges[np.bincount(which.ravel(), minlength=len(edges)) == 1]
         full = np.full(len(mesh.members), 2 * np.pi, np.float32)
         full[border.ravel()] = np.pi
@@ -54,7 +54,7 @@ class AngleDefect:
 
 
 @dataclass(frozen=True)
-class Folding:
+class FoldAngles:
     """How far the two triangles at each hinge are folded against each other."""
 
     hinges: Int[np.ndarray, "hinges 4"]

@@ -7,12 +7,12 @@ from jaxtyping import Float64, Int, Int32
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
-from caesura.core.mesh.edges import edges_of, pieces
+from caesura.core.mesh.edges import label_connected_pieces, list_edges
 from caesura.core.mesh.mesh import Mesh
 
 
 @dataclass(frozen=True)
-class Net:
+class EdgeGraph:
     """The edges between points, listed point by point, their lengths at rest, and the piece that each point is in."""
 
     edges: Int32[np.ndarray, "E 2"]
@@ -23,9 +23,9 @@ class Net:
     piece: Int[np.ndarray, "P"]
 
     @classmethod
-    def of(cls, mesh: Mesh) -> "Net":
+    def of(cls, mesh: Mesh) -> "EdgeGraph":
         """The net of a mesh."""
-        edges, _ = edges_of(mesh.corners)
+        edges, _ = list_edges(mesh.corners)
         points = len(mesh.members)
         here, there = np.concatenate([edges, edges[:, ::-1]]).T
         order = np.argsort(here, kind="stable")
@@ -34,7 +34,7 @@ class Net:
         edge = np.tile(np.arange(len(edges)), 2)[order]
         small = (part.astype(np.int32) for part in (edges, start, there[order], edge))
         ends, starts, beside, along = small
-        return cls(ends, lengths, starts, beside, along, pieces(edges, points))
+        return cls(ends, lengths, starts, beside, along, label_connected_pieces(edges, points))
 
     def from_nearest(self, seeds: Int[np.ndarray, "seeds"]) -> Float64[np.ndarray, "P"]:
         """The distance at rest of every point from the nearest of some (Dijkstra 1959)."""

@@ -7,14 +7,16 @@ from jaxtyping import Bool, Float, Int
 
 
 @dataclass(frozen=True)
-class Spread:
+class FarthestPoints:
     """Indices of the `chosen` points, and which of them (by rank) is nearest to each point."""
 
     chosen: Int[np.ndarray, "chosen"]
     nearest: Int[np.ndarray, "points"]
 
 
-def spread(points: Float[np.ndarray, "points 3"], count: int, eligible: Bool[np.ndarray, "points"]) -> Spread:
+def sample_farthest_points(
+    points: Float[np.ndarray, "points 3"], count: int, eligible: Bool[np.ndarray, "points"]
+) -> FarthestPoints:
     """At most `count` of the `eligible` points, by farthest-point sampling (Gonzalez 1985), and who is nearest to whom.
 
     The first is the eligible point farthest from their mean; ties go to the lower index, so that the choice is the
@@ -35,7 +37,7 @@ def spread(points: Float[np.ndarray, "points 3"], count: int, eligible: Bool[np.
         np.minimum(distance, to_candidate, out=distance)
         chosen.append(candidate)
         candidate = int(np.argmax(np.where(eligible, distance, -1)))
-    return Spread(np.array(chosen, np.int64), nearest)
+    return FarthestPoints(np.array(chosen, np.int64), nearest)
 
 
 def _squared(columns: Float[np.ndarray, "3 points"], origin: Float[np.ndarray, "3"]) -> Float[np.ndarray, "points"]:

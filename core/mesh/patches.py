@@ -7,10 +7,10 @@ whatever the mesh, and is what streams into the projection.
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from caesura.core.mesh.farthest_points import spread
+from caesura.core.mesh.farthest_points import sample_farthest_points
 
 
-def patch_of_triangles(
+def assign_patches(
     rest: Float[np.ndarray, "V 3"], triangles: Int[np.ndarray, "T 3"], count: int = 256
 ) -> Int[np.ndarray, "T"]:
     """The patch, 0 … patches−1 with patches ≤ `count`, of every triangle: that of the nearest seed.
@@ -26,11 +26,11 @@ def patch_of_triangles(
     has_area = np.any(edges != 0, axis=1)
     if not has_area.any():
         return np.zeros(len(triangles), np.int64)
-    patch = spread(corners.mean(axis=1), count, has_area).nearest
-    return _contiguous(patch, has_area)
+    patch = sample_farthest_points(corners.mean(axis=1), count, has_area).nearest
+    return _make_contiguous(patch, has_area)
 
 
-def _contiguous(patch: Int[np.ndarray, "T"], has_area: Bool[np.ndarray, "T"]) -> Int[np.ndarray, "T"]:
+def _make_contiguous(patch: Int[np.ndarray, "T"], has_area: Bool[np.ndarray, "T"]) -> Int[np.ndarray, "T"]:
     """A seed may lose its own triangle to none but itself, so every patch is met; renumbering guards the promise."""
     met = np.unique(patch[has_area])
     return np.searchsorted(met, patch).clip(max=len(met) - 1)

@@ -7,7 +7,7 @@ LEAF = 64
 """Triangles whose corners, over a block of 64 frames, stay in the nearest cache (32 kB)."""
 
 
-def coherent_order(
+def order_triangles(
     rest: Float[np.ndarray, "V 3"], triangles: Int[np.ndarray, "T 3"], tile: int
 ) -> Int[np.ndarray, "T"]:
     """The triangles in runs of `tile`, each a compact piece of the rest shape, itself in compact runs of `LEAF`.

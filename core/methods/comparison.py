@@ -8,28 +8,28 @@ from threadpoolctl import threadpool_limits
 
 from caesura.core.analysis import Analysis
 from caesura.core.document import Notice
-from caesura.core.energy.key_frames import key_frames
+from caesura.core.energy.key_frames import extract_key_frames
 from caesura.core.errors import ParameterError
-from caesura.core.methods.pose_features import poses
+from caesura.core.methods.pose_features import pose_features
 from caesura.core.parameters import Parameters
 from caesura.core.segmentation import Cut
 
-Divide = Callable[[Float[np.ndarray, "frames D"], float, int, int], Int[np.ndarray, "frames"]]
+LabelFrames = Callable[[Float[np.ndarray, "frames D"], float, int, int], Int[np.ndarray, "frames"]]
 """Poses, frame rate, K and seed in; a motion for every frame out, of K or fewer."""
 
 
-def compared(analysis: Analysis, parameters: Parameters, divide: Divide, most_frames: int) -> Cut:
+def cut_by_compared_method(analysis: Analysis, parameters: Parameters, divide: LabelFrames, most_frames: int) -> Cut:
     """Cut by `divide`. Nothing deforms: one segment. How sure a cut is, these methods do not say.
 
     Raises `ParameterError`: `motions-needed` where K is not told, `too-long-for-method` above `most_frames`, because
     time grows with the square of the frames.
     """
     window = round(parameters.keyframe_window_seconds * analysis.frame_rate)
-    keys = key_frames(analysis.energy, analysis.peaks, window, parameters.threshold)
-    values = poses(analysis.features)
+    keys = extract_key_frames(analysis.energy, analysis.peaks, window, parameters.threshold)
+    values = pose_features(analysis.features)
     if values.shape[1] == 0:
         return Cut(np.zeros(analysis.frames, np.int64), keys)
-    motions = parameters.motions_told()
+    motions = parameters.required_motions()
     if analysis.frames > most_frames:
         raise ParameterError(
             "too-long-for-method",

@@ -6,7 +6,7 @@ from jaxtyping import Float
 from caesura.core.analysis import Features
 
 
-def poses(features: tuple[Features, ...]) -> Float[np.ndarray, "frames D"]:
+def pose_features(features: tuple[Features, ...]) -> Float[np.ndarray, "frames D"]:
     """Every descriptor at unit mean square about its mean, so that they count alike; none that never changes.
 
     No columns where nothing does.

@@ -13,7 +13,7 @@ RESOLUTION = 32
 """Places in a repetition that are told apart, so that slow motions cost no more than fast ones."""
 
 
-def beats(passage: Float[np.ndarray, "frames d"], period: int) -> Int[np.ndarray, "bounds"]:
+def find_repetition_ends(passage: Float[np.ndarray, "frames d"], period: int) -> Int[np.ndarray, "bounds"]:
     """0, the frames at which repetitions end, and the number of frames.
 
     The ends that make the frames around each most like those around the next, and the repetitions even; exact, by
@@ -24,9 +24,9 @@ def beats(passage: Float[np.ndarray, "frames d"], period: int) -> Int[np.ndarray
     lags = np.arange(max(int(FASTEST * period / stride), 1), int(np.ceil(SLOWEST * period / stride)) + 1)
     lags = lags[lags < len(seen)]
     uneven = EVENNESS * np.log(lags * stride / period) ** 2
-    cost = (_differences(seen, lags, max(period // stride // 4, 1)) + uneven) * lags
+    cost = (_frame_differences(seen, lags, max(period // stride // 4, 1)) + uneven) * lags
     came_from = np.full(len(seen) + 1, -1, np.int64)
-    repetition.cheapest(cost, lags, came_from)
+    repetition.cheapest_repetition_ends(cost, lags, came_from)
     bounds = [len(seen)]
     while bounds[-1] > 0 and came_from[bounds[-1]] >= 0:
         bounds.append(int(came_from[bounds[-1]]))
@@ -34,7 +34,7 @@ def beats(passage: Float[np.ndarray, "frames d"], period: int) -> Int[np.ndarray
     return np.array([0, *(i * stride for i in inner), len(passage)])
 
 
-def _differences(
+def _frame_differences(
     seen: Float[np.ndarray, "places d"], lags: Int[np.ndarray, "lags"], around: int
 ) -> Float[np.ndarray, "ends lags"]:
     """[e, i]: how unlike the places around e are to those a lag earlier; 1 is as unlike as two places at random.

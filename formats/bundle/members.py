@@ -8,14 +8,14 @@ from typing import BinaryIO
 
 from caesura.core.errors import BrokenContainer, InvalidModel, UnsupportedMedia
 from caesura.core.limits import Limits
-from caesura.formats.zip.archive import Archive, check_member, malformed
+from caesura.formats.zip.archive import Archive, check_member, malformed_zip
 
 MODELS = (".gltf", ".glb", ".bvh")
 SHAPES = (".obj", ".ply")
 NUMBER = re.compile(r"\d+")
 
 
-class ZipFiles(Archive):
+class ZipMembers(Archive):
     """The members of a zip by their exact names; nothing of it is ever written where a name says.
 
     Raises `BrokenContainer("malformed-zip")` or `LimitExceeded`, by the directory alone.
@@ -25,7 +25,7 @@ class ZipFiles(Archive):
     longest_directory = 4 * 2**20
 
     def __init__(self, file: BinaryIO, limits: Limits) -> None:
-        with told_as_zip():
+        with errors_as_zip():
             super().__init__(file, limits)
 
     def are_arrays(self) -> bool:
@@ -68,7 +68,7 @@ class ZipFiles(Archive):
             check_member(info)
             leads_out = name.startswith("/") or "\\" in name or ".." in name.split("/") or ":" in name
             if not name or name in members or leads_out:
-                raise malformed(f"has a member {name[:80]!r}, without a name, a path out of it or there twice")
+                raise malformed_zip(f"has a member {name[:80]!r}, without a name, a path out of it or there twice")
             if not info.is_dir() and not name.startswith("__MACOSX/"):
                 members[name] = info
         limits.check(
@@ -78,7 +78,7 @@ class ZipFiles(Archive):
 
 
 @contextmanager
-def told_as_zip() -> Iterator[None]:
+def errors_as_zip() -> Iterator[None]:
     """Say of a zip what is said of an archive of arrays."""
     try:
         yield
@@ -87,7 +87,7 @@ def told_as_zip() -> Iterator[None]:
         raise BrokenContainer("malformed-zip", detail) from None
 
 
-def archive_within(name: str) -> UnsupportedMedia:
+def refuse_nested_archive(name: str) -> UnsupportedMedia:
     """The refusal of an archive in a zip: there may be another one in it, without end."""
     return UnsupportedMedia("unsupported-media-type", f"{name[:80]!r} in the zip is a zip again. Send that one alone.")
 

@@ -9,29 +9,29 @@ from caesura.core.animation import Animation
 from caesura.core.errors import InvalidModel
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
-from caesura.formats.bundle.members import ZipFiles, told_as_zip
+from caesura.formats.bundle.members import ZipMembers, errors_as_zip
 from caesura.formats.bundle.obj import read_obj
 from caesura.formats.bundle.ply import read_ply
 from caesura.formats.bundle.polygon_mesh import PolygonMesh
 from caesura.formats.notices import Notices
-from caesura.formats.npz.read import check_sum, inflated, sequence
-from caesura.formats.vertex_sequence import finite
+from caesura.formats.npz.read import inflate_member, verify_checksum, vertex_sequence_from_arrays
+from caesura.formats.vertex_sequence import require_finite
 
 Scratch = Callable[[int], memoryview]
 
 
-def member(files: ZipFiles, name: str, data: memoryview, scratch: Scratch) -> memoryview:
+def read_member(files: ZipMembers, name: str, data: memoryview, scratch: Scratch) -> memoryview:
     """The bytes of one file: where they lie if they are stored, else inflated into `scratch`."""
-    with told_as_zip():
+    with errors_as_zip():
         if not files.is_stored(name):
-            return inflated(files, name, scratch(files.members[name].file_size))
+            return inflate_member(files, name, scratch(files.members[name].file_size))
         start, stop = files.place(name)
-        check_sum(data[start:stop], files.members[name].CRC, name)
+        verify_checksum(data[start:stop], files.members[name].CRC, name)
         return data[start:stop]
 
 
 def read_shapes(
-    files: ZipFiles, data: memoryview, parameters: Parameters, limits: Limits, scratch: Scratch
+    files: ZipMembers, data: memoryview, parameters: Parameters, limits: Limits, scratch: Scratch
 ) -> Animation:
     """The animation of numbered OBJ or PLY files, whose vertices and faces must be the same in all.
 
@@ -58,13 +58,13 @@ def read_shapes(
                 frame=frame,
             )
         stored[frame] = shape.vertices
-        if not finite(stored[frame]):
+        if not require_finite(stored[frame]):
             raise InvalidModel("non-finite-data", f"{name[:80]!r} has a vertex that is not at a finite place.")
-    return sequence(stored, triangles, None, None, parameters, limits, notices)
+    return vertex_sequence_from_arrays(stored, triangles, None, None, parameters, limits, notices)
 
 
-def _shape(files: ZipFiles, name: str, data: memoryview, limits: Limits) -> PolygonMesh:
-    raw = bytes(member(files, name, data, lambda size: memoryview(bytearray(size))))
+def _shape(files: ZipMembers, name: str, data: memoryview, limits: Limits) -> PolygonMesh:
+    raw = bytes(read_member(files, name, data, lambda size: memoryview(bytearray(size))))
     read = read_obj if name.lower().endswith(".obj") else read_ply
     try:
         return read(raw, limits)

@@ -7,8 +7,8 @@ from jaxtyping import Float, Int
 
 from caesura.core.errors import InvalidModel
 from caesura.core.limits import Limits
-from caesura.formats.bvh.hierarchy import Head, Joint, malformed, read_head
-from caesura.formats.decode_budget import Budget
+from caesura.formats.bvh.hierarchy import BvhHeader, BvhJoint, malformed_bvh, read_bvh_header
+from caesura.formats.decode_budget import DecodeBudget
 from caesura.formats.gltf.writer import Channel, GlbWriter
 
 AXES = {"X": 0, "Y": 1, "Z": 2}
@@ -17,24 +17,24 @@ AT_ONCE = 2**18
 """Rotations that are computed together."""
 
 
-def bvh_as_gltf(data: memoryview, limits: Limits) -> bytes:
+def convert_bvh_to_glb(data: memoryview, limits: Limits) -> bytes:
     """The GLB: a node for every joint, and the rotations and places of those that have channels.
 
     Raises `BrokenContainer("malformed-bvh")`, `InvalidModel` or `LimitExceeded`.
     """
-    head = read_head(bytes(data[: 2**23]), limits)
+    head = read_bvh_header(bytes(data[: 2**23]), limits)
     limits.check("max_frames", head.frames, "Cut the take")
-    Budget(limits).check(4 * len(data) + head.frames * 4 * len(head.joints) * 8)
-    values = _values(data, head)
+    DecodeBudget(limits).check(4 * len(data) + head.frames * 4 * len(head.joints) * 8)
+    values = _read_motion_values(data, head)
     writer = GlbWriter()
     for joint in head.joints:
         writer.node(joint.name, parent=None if joint.parent < 0 else joint.parent, translation=joint.offset)
     times = (np.arange(head.frames) / head.rate).astype(np.float32)
-    writer.animation("motion", _moves(head, values, times))
+    writer.animation("motion", _has_position(head, values, times))
     return writer.to_bytes()
 
 
-def _values(data: memoryview, head: Head) -> Float[np.ndarray, "frames columns"]:
+def _read_motion_values(data: memoryview, head: BvhHeader) -> Float[np.ndarray, "frames columns"]:
     count = head.frames * head.columns
     if count == 0:
         raise InvalidModel("no-motion", "The BVH has no frames, or none of its joints moves.")
@@ -45,34 +45,36 @@ def _values(data: memoryview, head: Head) -> Float[np.ndarray, "frames columns"]
             # Never told how many: where there are fewer, NumPy fills up with whatever lies in memory.
             values = np.fromstring(text, np.float64, sep=" ")[:count]
         except (ValueError, DeprecationWarning):
-            raise malformed("has something that is no number among its frames") from None
+            raise malformed_bvh("has something that is no number among its frames") from None
     if len(values) < count:
-        raise malformed(f"has {len(values):,} numbers, of {count:,} in {head.frames:,} frames")
+        raise malformed_bvh(f"has {len(values):,} numbers, of {count:,} in {head.frames:,} frames")
     if not (np.abs(values) < 1e30).all():
-        raise InvalidModel("non-finite-data", "A number of the motion is not finite.", frame=_bad_frame(values, head))
+        raise InvalidModel(
+            "non-finite-data", "A number of the motion is not finite.", frame=_refuse_frame(values, head)
+        )
     return values.reshape(head.frames, head.columns)
 
 
-def _bad_frame(values: Float[np.ndarray, "numbers"], head: Head) -> int:
+def _refuse_frame(values: Float[np.ndarray, "numbers"], head: BvhHeader) -> int:
     return int(np.argmin(np.abs(values) < 1e30)) // head.columns
 
 
-def _moves(
-    head: Head, values: Float[np.ndarray, "frames columns"], times: Float[np.ndarray, "frames"]
+def _has_position(
+    head: BvhHeader, values: Float[np.ndarray, "frames columns"], times: Float[np.ndarray, "frames"]
 ) -> list[Channel]:
     ends = np.cumsum([len(joint.channels) for joint in head.joints])
-    rotations = _rotations(head, values, ends)
+    rotations = _joint_rotations(head, values, ends)
     found = []
     for node, joint in enumerate(head.joints):
         if node in rotations:
             found.append(Channel(node, "rotation", times, rotations[node]))
         if any(channel.endswith("position") for channel in joint.channels):
             own = values[:, ends[node] - len(joint.channels) : ends[node]]
-            found.append(Channel(node, "translation", times, _places(joint, own)))
+            found.append(Channel(node, "translation", times, _joint_positions(joint, own)))
     return found
 
 
-def _places(joint: Joint, own: Float[np.ndarray, "frames channels"]) -> Float[np.ndarray, "frames 3"]:
+def _joint_positions(joint: BvhJoint, own: Float[np.ndarray, "frames channels"]) -> Float[np.ndarray, "frames 3"]:
     """Where a joint is in its parent: on the axes that it has channels for, these and not its offset."""
     places = np.tile(np.array(joint.offset, np.float64), (len(own), 1))
     for column, channel in enumerate(joint.channels):
@@ -81,8 +83,8 @@ def _places(joint: Joint, own: Float[np.ndarray, "frames channels"]) -> Float[np
     return places.astype(np.float32)
 
 
-def _rotations(
-    head: Head, values: Float[np.ndarray, "frames columns"], ends: Int[np.ndarray, "joints"]
+def _joint_rotations(
+    head: BvhHeader, values: Float[np.ndarray, "frames columns"], ends: Int[np.ndarray, "joints"]
 ) -> dict[int, Float[np.ndarray, "frames 4"]]:
     """The rotations of every joint that has any: many joints at once where there are few frames, else a few."""
     from scipy.spatial.transform import Rotation  # noqa: PLC0415  a tenth of a second that no other format needs

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from caesura.core.errors import BrokenContainer
 from caesura.core.limits import Limits
-from caesura.formats.frame_rate import snapped
+from caesura.formats.frame_rate import snap_frame_rate
 
 MOTION = b"MOTION"
 ROUNDED = 1e-3
@@ -22,7 +22,7 @@ CHANNELS = {f"{axis}{kind}" for axis in "XYZ" for kind in ("position", "rotation
 
 
 @dataclass
-class Joint:
+class BvhJoint:
     """One joint; `parent` is -1 at the root. `channels` are as in glTF's order of the file, such as `Zrotation`."""
 
     name: str
@@ -32,10 +32,10 @@ class Joint:
 
 
 @dataclass(frozen=True)
-class Head:
+class BvhHeader:
     """Joints, each after its parent; `frames` at every `frame_seconds`, whose numbers begin at byte `start`."""
 
-    joints: list[Joint]
+    joints: list[BvhJoint]
     frames: int
     frame_seconds: float
     start: int
@@ -44,7 +44,7 @@ class Head:
     def rate(self) -> float:
         """Frames per second; of a time that was rounded to 0.0083333 seconds, the 120 that it stands for."""
         rate = 1 / self.frame_seconds
-        known = snapped(rate)
+        known = snap_frame_rate(rate)
         return known if known is not None and abs(known / rate - 1) < ROUNDED else rate
 
     @property
@@ -53,37 +53,37 @@ class Head:
         return sum(len(joint.channels) for joint in self.joints)
 
 
-def read_head(data: bytes, limits: Limits) -> Head:
+def read_bvh_header(data: bytes, limits: Limits) -> BvhHeader:
     """The head at the beginning of `data`; raises `BrokenContainer("malformed-bvh")` or `LimitExceeded`."""
     end = data.find(MOTION, 0, LONGEST)
     if end < 0:
-        raise malformed("has no MOTION after its hierarchy")
+        raise malformed_bvh("has no MOTION after its hierarchy")
     joints = _joints(iter(data[:end].decode("utf-8-sig", "replace").split()), limits)
     at = end
     lines = []
     for _ in range(3):
         stop = data.find(b"\n", at, at + 200)
         if stop < 0:
-            raise malformed("ends before its frames")
+            raise malformed_bvh("ends before its frames")
         lines.append(data[at:stop].decode("ascii", "replace").split())
         at = stop + 1
     count, step = lines[1], lines[2]
     if count[:1] != ["Frames:"] or step[:2] != ["Frame", "Time:"]:
-        raise malformed("does not say how many frames it has and how far apart")
+        raise malformed_bvh("does not say how many frames it has and how far apart")
     seconds = _number(step[2] if len(step) > 2 else "")
     frames = _number(count[1] if len(count) > 1 else "")
     if not 0 < seconds <= 1e6 or not 0 <= frames < 2**53 or frames != int(frames):
-        raise malformed(f"has {frames:g} frames of {seconds:g} seconds")
-    return Head(joints, int(frames), seconds, at)
+        raise malformed_bvh(f"has {frames:g} frames of {seconds:g} seconds")
+    return BvhHeader(joints, int(frames), seconds, at)
 
 
-def malformed(what: str) -> BrokenContainer:
+def malformed_bvh(what: str) -> BrokenContainer:
     """The refusal of a BVH."""
     return BrokenContainer("malformed-bvh", f"The BVH {what}. Export it again.")
 
 
-def _joints(words: Iterator[str], limits: Limits) -> list[Joint]:
-    joints: list[Joint] = []
+def _joints(words: Iterator[str], limits: Limits) -> list[BvhJoint]:
+    joints: list[BvhJoint] = []
     above: list[int] = []
     for word in words:
         if word in {"ROOT", "JOINT", "End"}:
@@ -93,7 +93,7 @@ def _joints(words: Iterator[str], limits: Limits) -> list[Joint]:
             if word == "End":  # which has no name of its own
                 name = _end_of(joints[parent].name if above else "")
             above.append(len(joints))
-            joints.append(Joint(name, parent))
+            joints.append(BvhJoint(name, parent))
         elif word == "OFFSET" and above:
             joints[above[-1]].offset = (_number(next(words, "")), _number(next(words, "")), _number(next(words, "")))
         elif word == "CHANNELS" and above:
@@ -101,9 +101,9 @@ def _joints(words: Iterator[str], limits: Limits) -> list[Joint]:
         elif word == "}" and above:
             above.pop()
         elif word != "HIERARCHY":
-            raise malformed(f"has {word[:40]!r} in its hierarchy")
+            raise malformed_bvh(f"has {word[:40]!r} in its hierarchy")
     if above or not joints:
-        raise malformed("has no joints, or a joint without an end")
+        raise malformed_bvh("has no joints, or a joint without an end")
     return joints
 
 
@@ -122,15 +122,15 @@ def _until_brace(words: Iterator[str]) -> str:
         name.append(word)
         letters += len(word)
         if letters > LONGEST_NAME:
-            raise malformed(f"has a joint whose name goes on beyond {LONGEST_NAME} letters: {name[0][:40]!r} …")
-    raise malformed("breaks off in its hierarchy")
+            raise malformed_bvh(f"has a joint whose name goes on beyond {LONGEST_NAME} letters: {name[0][:40]!r} …")
+    raise malformed_bvh("breaks off in its hierarchy")
 
 
 def _channels(words: Iterator[str]) -> list[str]:
     count = next(words, "")
     found = [next(words, "") for _ in range(int(count) if count.isdecimal() and len(count) == 1 else 0)]
     if not found or not set(found) <= CHANNELS or len(set(found)) < len(found):
-        raise malformed(f"has channels {' '.join(found)[:80] or 'without names'}")
+        raise malformed_bvh(f"has channels {' '.join(found)[:80] or 'without names'}")
     return found
 
 
@@ -138,7 +138,7 @@ def _number(word: str) -> float:
     try:
         value = float(word)
     except ValueError:
-        raise malformed(f"has {word[:40]!r} where a number belongs") from None
+        raise malformed_bvh(f"has {word[:40]!r} where a number belongs") from None
     if not math.isfinite(value) or abs(value) > 3e38:
-        raise malformed("has a number that is not finite")
+        raise malformed_bvh("has a number that is not finite")
     return value

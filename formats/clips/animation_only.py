@@ -1,12 +1,12 @@
 """A glTF stripped to its nodes: what engines take as animations for a model that they have already."""
 
-from caesura.formats.clips.self_contained_gltf import SelfContained
+from caesura.formats.clips.self_contained_gltf import SelfContainedGltf
 
 KEPT = ("asset", "scene", "scenes", "nodes", "animations", "extras")
 PLACEMENT = ("name", "children", "translation", "rotation", "scale", "matrix", "extras")
 
 
-def without_meshes(file: SelfContained) -> None:
+def strip_meshes(file: SelfContainedGltf) -> None:
     """Leave nodes, their places and their names; no meshes, skins, materials, or bytes."""
     file.json = {name: file.json[name] for name in KEPT if name in file.json}
     file.json["nodes"] = [{k: node[k] for k in PLACEMENT if k in node} for node in file.json.get("nodes", [])]
@@ -16,6 +16,6 @@ def without_meshes(file: SelfContained) -> None:
     file.pieces, file.length = [], 0
 
 
-def moves_a_node(path: str) -> bool:
+def targets_node(path: str) -> bool:
     """Whether a channel has a meaning without meshes."""
     return path in {"translation", "rotation", "scale"}

@@ -9,20 +9,20 @@ import numpy as np
 from jaxtyping import Float, Shaped
 
 from caesura.core.limits import Limits
-from caesura.formats.clips.animation_only import without_meshes
+from caesura.formats.clips.animation_only import strip_meshes
 from caesura.formats.clips.binary_chunk import BinaryChunk, without_unused
 from caesura.formats.clips.buffer_references import exclusive_accessors, parts
-from caesura.formats.clips.self_contained_gltf import SelfContained
-from caesura.formats.gltf.document import Document
-from caesura.formats.gltf.geometry.accessors import Accessors, Layout
+from caesura.formats.clips.self_contained_gltf import SelfContainedGltf
+from caesura.formats.gltf.document import GltfDocument
+from caesura.formats.gltf.geometry.accessors import AccessorLayout, Accessors
 from caesura.formats.gltf.writer import COMPONENTS
-from caesura.formats.read import main_part
+from caesura.formats.read import find_main_part
 
 UNUSED_ACCESSOR = {"componentType": 5126, "count": 1, "type": "SCALAR"}
 """What stands in the place of an accessor that is gone, so that the numbers of the others stay."""
 
 
-class Replacement:
+class AnimationReplacement:
     """`remove` takes animations out, `add` puts others in, `pieces` are the GLB.
 
     The file has been read before, so its limits are not asked again.
@@ -30,9 +30,9 @@ class Replacement:
 
     def __init__(self, upload: Mapping[str, memoryview], *, animation_only: bool = False) -> None:
         beside = dict(upload)
-        self.document = Document(beside.pop(main_part(upload)), beside, Limits.none())
+        self.document = GltfDocument(beside.pop(find_main_part(upload)), beside, Limits.none())
         self.accessors = Accessors(self.document)
-        self._file = SelfContained(self.document)
+        self._file = SelfContainedGltf(self.document)
         self._bare = animation_only
         self._free: list[int] = []
         self._opened: set[int] = set()
@@ -41,7 +41,7 @@ class Replacement:
         self._staying: list[int] = []
         self._added: dict[int, list[dict[str, Any]]] = {}
         if animation_only:
-            without_meshes(self._file)
+            strip_meshes(self._file)
 
     def remove(self, removed: set[int]) -> None:
         """Take animations out by their numbers."""
@@ -58,7 +58,7 @@ class Replacement:
         """Put animations in where the animation `take` was, or after it."""
         self._added[take] = animations
 
-    def window(self, layout: Layout, first: int, count: int) -> int | None:
+    def window(self, layout: AccessorLayout, first: int, count: int) -> int | None:
         """An accessor of `count` elements of another, from number `first` on; None where it cannot be looked into."""
         entry = layout.entry.value
         if self._bare or "bufferView" not in entry or "sparse" in entry:

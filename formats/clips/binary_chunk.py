@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from caesura.formats.clips.buffer_references import Range, parts, views_of_others, whole_view
-from caesura.formats.clips.self_contained_gltf import SelfContained, addressed
+from caesura.formats.clips.self_contained_gltf import SelfContainedGltf, byte_ranges_of_view
 from caesura.formats.gltf.document import COMPRESSED
 
 PIECE = 2**20
@@ -63,7 +63,7 @@ class BinaryChunk:
         yield from self._new
 
 
-def without_unused(file: SelfContained, opened: set[int]) -> BinaryChunk:
+def without_unused(file: SelfContainedGltf, opened: set[int]) -> BinaryChunk:
     """Drop the views that nothing refers to, and of the views `opened` the bytes that no accessor does.
 
     Views and accessors of the JSON are moved with their bytes; none are where an extension of a view may say where
@@ -91,7 +91,7 @@ def without_unused(file: SelfContained, opened: set[int]) -> BinaryChunk:
         if number in inside:
             _shrink(view, inside[number], chunk)
         elif number in whole:
-            for part in addressed(view):
+            for part in byte_ranges_of_view(view):
                 if part["buffer"] == 0:
                     _place(part, chunk.moved(part.get("byteOffset", 0)))
         else:

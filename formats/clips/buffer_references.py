@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from caesura.formats.gltf.document import HARMLESS
+from caesura.formats.gltf.document import IGNORABLE_EXTENSIONS
 from caesura.formats.gltf.geometry.accessors import COMPONENTS, WIDTHS
 
 Range = tuple[int, int]
@@ -62,7 +62,7 @@ def _numbers_in_extensions(value: Any, within: bool = False) -> Iterator[int]:
         yield value
     elif isinstance(value, dict):
         for name, below in value.items():
-            if not (name in UNDERSTOOD or name.startswith(HARMLESS)):
+            if not (name in UNDERSTOOD or name.startswith(IGNORABLE_EXTENSIONS)):
                 yield from _numbers_in_extensions(below, within or name == "extensions")
     elif isinstance(value, list):
         for below in value:

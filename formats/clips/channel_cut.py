@@ -5,15 +5,15 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Shaped
 
-from caesura.formats.clips.channel_keys import Keys
-from caesura.formats.clips.rotation_spline import with_unit_ends
+from caesura.formats.clips.channel_keys import ChannelKeys
+from caesura.formats.clips.rotation_spline import normalise_spline_ends
 
 ON_KEY_SECONDS = 4e-6
 """A key so near to a cut stands for it: float32 times cannot say it better, and nothing moves far meanwhile."""
 
 
 @dataclass(frozen=True)
-class Part:
+class ChannelPart:
     """Keys of a clip. Where `window` is not None they are keys [first, first + count) of the source, untouched."""
 
     times: Float[np.ndarray, "keys"]
@@ -26,7 +26,7 @@ class Part:
         return len(self.times) == 1
 
 
-def cut(keys: Keys, start: float, end: float, origin: float) -> Part:
+def cut_channel(keys: ChannelKeys, start: float, end: float, origin: float) -> ChannelPart:
     """The keys within [start, end], with one on either end, timed from `origin`. One key where nothing moves.
 
     Keys that lie where they are cut are used as they are stored; a value between two keys is computed, and then
@@ -41,19 +41,21 @@ def cut(keys: Keys, start: float, end: float, origin: float) -> Part:
     seconds = times.astype(np.float32)
     if on_start and on_end and (np.diff(seconds) > 0).all():
         window = (first - 1, last - first + 2)
-        return _still(keys, Part(seconds, keys.stored[first - 1 : last + 1], window))
+        return _reduce_to_one_key(keys, ChannelPart(seconds, keys.stored[first - 1 : last + 1], window))
     if keys.interpolation == "STEP":
         picked = np.searchsorted(keys.times, [start + near, end + near], "right") - 1
         rows = np.concatenate([[max(picked[0], 0)], np.arange(first, last), [max(picked[1], 0)]])
-        return _still(keys, _increasing(Part(seconds, keys.stored[rows])))
+        return _reduce_to_one_key(keys, _increasing(ChannelPart(seconds, keys.stored[rows])))
     if keys.is_spline:
-        return _still(keys, _increasing(_spline(keys, start, end, slice(first, last), (on_start, on_end), origin)))
+        return _reduce_to_one_key(
+            keys, _increasing(_spline(keys, start, end, slice(first, last), (on_start, on_end), origin))
+        )
     edges = keys.at(np.array([start, end]))[:, None]
     values = np.concatenate([edges[:1], keys.rows[first:last], edges[1:]]).astype(np.float32)
-    return _still(keys, _increasing(Part(seconds, values)))
+    return _reduce_to_one_key(keys, _increasing(ChannelPart(seconds, values)))
 
 
-def spanning(part: Part, start: float, end: float, origin: float) -> Part:
+def extend_to_clip(part: ChannelPart, start: float, end: float, origin: float) -> ChannelPart:
     """The same with a key at either end, where one key held all the time: so the clip is as long as it should be.
 
     A clip of a take's last frame alone has no length, and keeps its one key.
@@ -61,18 +63,20 @@ def spanning(part: Part, start: float, end: float, origin: float) -> Part:
     seconds = (np.array([start, end]) - origin).astype(np.float32)
     if not part.is_still or seconds[0] == seconds[1]:
         return part
-    return Part(seconds, np.repeat(part.values, 2, axis=0))
+    return ChannelPart(seconds, np.repeat(part.values, 2, axis=0))
 
 
-def held(keys: Keys, part: Part) -> Part:
+def hold_single_key(keys: ChannelKeys, part: ChannelPart) -> ChannelPart:
     """The value alone of a spline's one key; a rotation's is made of unit length, as every value of a spline is."""
     values = part.values[:, 1:2]
     if keys.is_rotation and values.dtype.kind == "f":
         values = (values / np.linalg.norm(values, axis=2, keepdims=True)).astype(values.dtype)
-    return Part(part.times, values)
+    return ChannelPart(part.times, values)
 
 
-def _spline(keys: Keys, start: float, end: float, interior: slice, on: tuple[bool, bool], origin: float) -> Part:
+def _spline(
+    keys: ChannelKeys, start: float, end: float, interior: slice, on: tuple[bool, bool], origin: float
+) -> ChannelPart:
     first, last = interior.start, interior.stop
     head = keys.rows[first - 1 : first] if on[0] else keys.spline(np.array([start]))
     tail = keys.rows[last : last + 1] if on[1] else keys.spline(np.array([end]))
@@ -83,23 +87,23 @@ def _spline(keys: Keys, start: float, end: float, interior: slice, on: tuple[boo
         rows[-2, 2] = 0
     times = np.concatenate([[start], keys.times[interior], [end]])
     if keys.is_rotation:
-        times, rows = with_unit_ends(times, rows)
-    return Part((times - origin).astype(np.float32), rows.astype(np.float32))
+        times, rows = normalise_spline_ends(times, rows)
+    return ChannelPart((times - origin).astype(np.float32), rows.astype(np.float32))
 
 
-def _increasing(part: Part) -> Part:
+def _increasing(part: ChannelPart) -> ChannelPart:
     """Without keys that rounding has put at the time of another; the ends stay, or the first where all are one."""
     if part.times[0] == part.times[-1]:
-        return Part(part.times[:1], part.values[:1])
+        return ChannelPart(part.times[:1], part.values[:1])
     kept = np.ones(len(part.times), bool)
     kept[1:-1] = (part.times[1:-1] > part.times[:-2]) & (part.times[1:-1] < part.times[-1])
-    return Part(part.times[kept], part.values[kept])
+    return ChannelPart(part.times[kept], part.values[kept])
 
 
-def _still(keys: Keys, part: Part) -> Part:
+def _reduce_to_one_key(keys: ChannelKeys, part: ChannelPart) -> ChannelPart:
     """One key, at the clip's beginning, where all are the same; a spline's tangents must be nothing then."""
     values = part.values
     tangents = values[:, ::2].any() if keys.is_spline else False
     if tangents or (values != values[:1]).any():
         return part
-    return Part(part.times[:1], values[:1])
+    return ChannelPart(part.times[:1], values[:1])

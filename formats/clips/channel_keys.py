@@ -7,8 +7,8 @@ import numpy as np
 from jaxtyping import Float, Int, Shaped
 
 from caesura.formats.gltf.animation.channels import INTERPOLATIONS
-from caesura.formats.gltf.geometry.accessors import Accessors, Layout
-from caesura.formats.gltf.json_object import Entry
+from caesura.formats.gltf.geometry.accessors import AccessorLayout, Accessors
+from caesura.formats.gltf.json_object import JsonObject
 from caesura.formats.gltf.posing.nodes import unit_rotations
 
 NEAR = 0.9995
@@ -16,7 +16,7 @@ NEAR = 0.9995
 
 
 @dataclass(frozen=True)
-class Keys:
+class ChannelKeys:
     """`stored` (keys, 1 or 3, width) as in the file: values, or in-tangent, value and out-tangent of a spline."""
 
     interpolation: str
@@ -50,7 +50,7 @@ class Keys:
             values = self.spline(seconds)[:, 1]
             return _unit(values) if self.is_rotation else values
         if self.is_rotation:
-            return arc(before, self.values[following], share)
+            return quaternion_arc(before, self.values[following], share)
         mixed: Float[np.ndarray, "some width"] = before + share * (self.values[following] - before)
         return mixed
 
@@ -84,11 +84,11 @@ class Keys:
         return key, following, np.clip(share, 0.0, 1.0)[:, None]
 
 
-def read_keys(accessors: Accessors, sampler: Entry, is_rotation: bool) -> Keys:
+def read_keys(accessors: Accessors, sampler: JsonObject, is_rotation: bool) -> ChannelKeys:
     """The keys of a sampler; raises `invalid-animation` where their numbers do not fit together."""
     interpolation = sampler.choice("interpolation", INTERPOLATIONS, "LINEAR")
-    times = accessors.floats(layout_of(accessors, sampler, "input")).reshape(-1).astype(np.float64)
-    layout = layout_of(accessors, sampler, "output")
+    times = accessors.floats(key_layout(accessors, sampler, "input")).reshape(-1).astype(np.float64)
+    layout = key_layout(accessors, sampler, "output")
     parts = 3 if interpolation == "CUBICSPLINE" else 1
     width, rest = divmod(layout.count * layout.width, max(len(times), 1) * parts)
     if rest or not width or (np.diff(times) < 0).any():
@@ -97,15 +97,15 @@ def read_keys(accessors: Accessors, sampler: Entry, is_rotation: bool) -> Keys:
     if is_rotation and parts == 1 and width == 4:
         decoded = unit_rotations(decoded[:, 0], rounded=layout.dtype.kind != "f")[:, None]
     stored = accessors.elements(layout).reshape(-1, parts, width)
-    return Keys(interpolation, is_rotation and width == 4, times, stored, decoded)
+    return ChannelKeys(interpolation, is_rotation and width == 4, times, stored, decoded)
 
 
-def layout_of(accessors: Accessors, sampler: Entry, name: str) -> Layout:
+def key_layout(accessors: Accessors, sampler: JsonObject, name: str) -> AccessorLayout:
     """What the accessor of a sampler's `input` or `output` says it is."""
     return accessors.layout(sampler.index(name, len(accessors), "accessors", "invalid-animation"))
 
 
-def arc(
+def quaternion_arc(
     a: Float[np.ndarray, "some 4"], b: Float[np.ndarray, "some 4"], share: Float[np.ndarray, "some 1"]
 ) -> Float[np.ndarray, "some 4"]:
     """Rotations along the shorter arc from a to b: slerp."""

@@ -4,13 +4,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from caesura.formats.clips.animation_only import moves_a_node
-from caesura.formats.clips.animation_replacement import Replacement
-from caesura.formats.clips.channel_keys import Keys, layout_of, read_keys
-from caesura.formats.gltf.geometry.accessors import Layout
-from caesura.formats.gltf.json_object import Entry
+from caesura.formats.clips.animation_only import targets_node
+from caesura.formats.clips.animation_replacement import AnimationReplacement
+from caesura.formats.clips.channel_keys import ChannelKeys, key_layout, read_keys
+from caesura.formats.gltf.geometry.accessors import AccessorLayout
+from caesura.formats.gltf.json_object import JsonObject
 
-OURS = ("input", "output", "interpolation")
+EDITED_MEMBERS = ("input", "output", "interpolation")
 
 
 @dataclass(frozen=True)
@@ -18,32 +18,32 @@ class TakeChannel:
     """`target` is what moves, word for word; `output` is where its keys are stored; `more` else of its sampler."""
 
     target: dict[str, Any]
-    keys: Keys
-    output: Layout
+    keys: ChannelKeys
+    output: AccessorLayout
     more: dict[str, Any]
 
 
-def take_channels(file: Replacement, take: int, *, nodes_only: bool = False) -> Iterator[TakeChannel]:
+def take_channels(file: AnimationReplacement, take: int, *, nodes_only: bool = False) -> Iterator[TakeChannel]:
     """One after the other, so that the keys of one alone are decoded at a time."""
     animation = file.document.animations[take]
     samplers = animation.entries("samplers")
     for entry in animation.entries("channels"):
-        target = entry.entry("target") or Entry({}, entry.pointer)
+        target = entry.entry("target") or JsonObject({}, entry.pointer)
         path = target.text("path")
-        if nodes_only and not moves_a_node(path):
+        if nodes_only and not targets_node(path):
             continue
         sampler = samplers[entry.index("sampler", len(samplers), "samplers", "invalid-animation")]
-        keys = read_keys(file.accessors, sampler, path == "rotation" or _turns(target))
-        more = {name: value for name, value in sampler.value.items() if name not in OURS}
-        yield TakeChannel(target.value, keys, layout_of(file.accessors, sampler, "output"), more)
+        keys = read_keys(file.accessors, sampler, path == "rotation" or _is_rotation(target))
+        more = {name: value for name, value in sampler.value.items() if name not in EDITED_MEMBERS}
+        yield TakeChannel(target.value, keys, key_layout(file.accessors, sampler, "output"), more)
 
 
-def _turns(target: Entry) -> bool:
+def _is_rotation(target: JsonObject) -> bool:
     pointer = target.extension("KHR_animation_pointer")
     return pointer is not None and pointer.text("pointer", "").endswith("/rotation")
 
 
-class Tracks:
+class ClipTracks:
     """The channels and samplers of one new animation, as its JSON. What moves alike shares a sampler."""
 
     def __init__(self) -> None:

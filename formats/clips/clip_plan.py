@@ -6,7 +6,7 @@ from typing import Any
 
 from caesura.core.document import Interval, Segment, SegmentationDocument
 from caesura.core.errors import ParameterError
-from caesura.formats.clips.clip_names import numbered
+from caesura.formats.clips.clip_names import number_repeated_names
 from caesura.formats.clips.clip_options import ClipOptions
 
 MOST_OVER = 10
@@ -17,7 +17,7 @@ SHORT_SECONDS = 600.0
 
 
 @dataclass(frozen=True)
-class Stretch:
+class TakeRange:
     """Frames [first, end) of the result are of one take, the first of them at second `start` of its clock.
 
     The last of them stands until second `until`, which need not be on a frame; the take has seconds [0, duration].
@@ -52,21 +52,24 @@ class _Piece:
     """What of a segment lies in one take, and its seconds there."""
 
     segment: Segment
-    stretch: Stretch
+    stretch: TakeRange
     frames: Interval
     start: float
     end: float
 
 
-def plan(
-    document: SegmentationDocument, options: ClipOptions, stretches: Sequence[Stretch], taken: Iterable[str] = ()
+def plan_clips(
+    document: SegmentationDocument, options: ClipOptions, stretches: Sequence[TakeRange], taken: Iterable[str] = ()
 ) -> tuple[Clip, ...]:
     """The clips of a result, beside animations whose names are `taken`.
 
     A clip ends where the next segment begins, so that one clip's last pose is the next one's first. Raises
     `ParameterError` for a motion that there is not, `no-clips` where nothing is left, and `handles-too-long`.
     """
-    looping, discarded = _known(document, "loop", options.looping()), _known(document, "discard", options.discarded())
+    looping, discarded = (
+        _check_motion_names(document, "loop", options.looping()),
+        _check_motion_names(document, "discard", options.discarded()),
+    )
     pieces = [
         piece
         for segment in document.segments
@@ -81,14 +84,14 @@ def plan(
             "No clip is left: every segment is discarded, or shorter than min_seconds. Ask for less to be left out.",
             parameter="discard" if discarded else "min_seconds",
         )
-    _fits(pieces, options, stretches)
-    names = numbered(
+    _is_long_enough(pieces, options, stretches)
+    names = number_repeated_names(
         ((piece.segment.name, piece.segment.loop or piece.segment.name in looping) for piece in pieces), taken
     )
     return tuple(_clip(document, options, name, piece) for name, piece in zip(names, pieces, strict=True))
 
 
-def _fits(pieces: Sequence[_Piece], options: ClipOptions, stretches: Sequence[Stretch]) -> None:
+def _is_long_enough(pieces: Sequence[_Piece], options: ClipOptions, stretches: Sequence[TakeRange]) -> None:
     """Handles make clips overlap: many short ones with long handles are the take over and over again."""
     whole = sum(stretch.until - stretch.start for stretch in stretches)
     asked = sum(min(piece.end - piece.start + 2 * options.handles_seconds, whole) for piece in pieces)
@@ -120,7 +123,7 @@ def _clip(document: SegmentationDocument, options: ClipOptions, name: str, piece
 
 
 def _pieces(
-    document: SegmentationDocument, segment: Segment, part: Interval, stretches: Sequence[Stretch]
+    document: SegmentationDocument, segment: Segment, part: Interval, stretches: Sequence[TakeRange]
 ) -> Iterator[_Piece]:
     """A part of a segment in each take that it touches."""
     rate = document.frame_rate
@@ -136,7 +139,7 @@ def _parts(segment: Segment, split: bool) -> tuple[Interval, ...]:
     return segment.repeats if split and segment.repeats else (Interval(start=segment.start, end=segment.end),)
 
 
-def _known(document: SegmentationDocument, parameter: str, names: set[str]) -> set[str]:
+def _check_motion_names(document: SegmentationDocument, parameter: str, names: set[str]) -> set[str]:
     known = {segment.name for segment in document.segments}
     for name in sorted(names - known):
         listed = ", ".join(sorted(known)[:20])

@@ -8,7 +8,7 @@ from typing import Any
 from caesura.core.limits import Limits
 from caesura.formats.gltf.container import open_container
 from caesura.formats.notices import Notices
-from caesura.formats.read import main_part
+from caesura.formats.read import find_main_part
 
 MOST_EXTRAS_BYTES = 64 * 1024
 """Of all `extras` together, as JSON."""
@@ -18,7 +18,7 @@ CHUNK = "binary chunk of the source.bin"
 
 def clip_source(parts: Mapping[str, memoryview]) -> dict[str, memoryview]:
     """The parts of a glTF with little `extras`, as the source of many files; its buffers are not copied."""
-    main = main_part(parts)
+    main = find_main_part(parts)
     root, binary, _ = open_container(parts[main], Limits.none(), Notices())
     drop_large_extras(root.value)
     lean = dict(parts)

@@ -9,26 +9,26 @@ from jaxtyping import Float
 from caesura.core.animation import Animation
 from caesura.core.document import SegmentationDocument
 from caesura.core.errors import InvalidModel
-from caesura.formats.clips.animation_replacement import Replacement
-from caesura.formats.clips.channels import Tracks, take_channels
-from caesura.formats.clips.clip_names import numbered
-from caesura.formats.clips.clip_plan import Stretch
-from caesura.formats.clips.take_ranges import gltf_stretches
+from caesura.formats.clips.animation_replacement import AnimationReplacement
+from caesura.formats.clips.channels import ClipTracks, take_channels
+from caesura.formats.clips.clip_names import number_repeated_names
+from caesura.formats.clips.clip_plan import TakeRange
+from caesura.formats.clips.take_ranges import gltf_take_ranges
 from caesura.formats.gltf.writer import Channel, GlbWriter, Primitive
 
 NAME = "key_frames"
 
 
-def gltf_key_poses(file: Replacement, document: SegmentationDocument) -> Iterator[bytes]:
+def write_gltf_key_poses(file: AnimationReplacement, document: SegmentationDocument) -> Iterator[bytes]:
     """The uploaded glTF, its take replaced by the key poses, each at its own time in the take."""
     _check(document)
-    stretches = [s for s in gltf_stretches(file, document) if _frames(document, s)]
+    stretches = [s for s in gltf_take_ranges(file, document) if _frames(document, s)]
     file.remove({stretch.take for stretch in stretches})
-    names = [NAME] if len(stretches) == 1 else numbered([(NAME, False)] * len(stretches), ())
+    names = [NAME] if len(stretches) == 1 else number_repeated_names([(NAME, False)] * len(stretches), ())
     for name, stretch in zip(names, stretches, strict=True):
         frames = _frames(document, stretch)
         exact = stretch.start + (np.array(frames) - stretch.first) / document.frame_rate
-        tracks = Tracks()
+        tracks = ClipTracks()
         for channel in take_channels(file, stretch.take):
             output = file.array(
                 channel.keys.at(exact).astype(np.float32), channel.output.type, channel.output.width, {}
@@ -42,7 +42,7 @@ def gltf_key_poses(file: Replacement, document: SegmentationDocument) -> Iterato
     return file.pieces()
 
 
-def sequence_key_poses(animation: Animation, document: SegmentationDocument) -> Iterator[bytes]:
+def write_npz_key_poses(animation: Animation, document: SegmentationDocument) -> Iterator[bytes]:
     """A vertex sequence's key poses as morph targets of the first one, each on until the next."""
     _check(document)
     frames = [key.frame for key in document.key_frames]
@@ -64,7 +64,7 @@ def _check(document: SegmentationDocument) -> None:
         raise InvalidModel("no-key-frames", detail)
 
 
-def _frames(document: SegmentationDocument, stretch: Stretch) -> list[int]:
+def _frames(document: SegmentationDocument, stretch: TakeRange) -> list[int]:
     return [key.frame for key in document.key_frames if stretch.first <= key.frame < stretch.end]
 
 

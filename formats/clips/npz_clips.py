@@ -9,14 +9,14 @@ from jaxtyping import Shaped
 from caesura.core.animation import Animation
 from caesura.formats.clips.clip_plan import Clip
 from caesura.formats.vertex_sequence import VertexSequence
-from caesura.formats.zip.stream_writer import zipped
+from caesura.formats.zip.stream_writer import stream_zip
 
 BLOCK_BYTES = 2**24
 
 
-def sequence_clips(animation: Animation, clips: Sequence[Clip]) -> Iterator[bytes]:
+def write_npz_clips(animation: Animation, clips: Sequence[Clip]) -> Iterator[bytes]:
     """The zip. Frames are those of the segments, half-open, so the clips one after the other are the take again."""
-    return zipped(((f"{clip.name}.npz", _npz(animation, clip)) for clip in clips), deflated=False)
+    return stream_zip(((f"{clip.name}.npz", _npz(animation, clip)) for clip in clips), deflated=False)
 
 
 def _npz(animation: Animation, clip: Clip) -> Iterator[bytes]:
@@ -26,7 +26,7 @@ def _npz(animation: Animation, clip: Clip) -> Iterator[bytes]:
         arrays["rest"] = animation.rest
     arrays["start_seconds"] = np.float64(clip.extras["start_seconds"])
     members = ((f"{name}.npy", _npy(np.asarray(array))) for name, array in arrays.items())
-    return zipped([("vertices.npy", _frames(animation, clip)), *members], deflated=False)
+    return stream_zip([("vertices.npy", _frames(animation, clip)), *members], deflated=False)
 
 
 def _frames(animation: Animation, clip: Clip) -> Iterator[bytes]:

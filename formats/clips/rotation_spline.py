@@ -20,29 +20,29 @@ Rows = Float[np.ndarray, "_ 3 4"]
 Times = Float[np.ndarray, "_"]
 
 
-def with_unit_ends(times: Times, rows: Rows) -> tuple[Times, Rows]:
+def normalise_spline_ends(times: Times, rows: Rows) -> tuple[Times, Rows]:
     """The same curve, its first and last key of unit length."""
     off = np.abs(np.linalg.norm(rows[[0, -1], 1], axis=1) - 1) > OFF_UNIT
     if len(times) == 2:
-        return _traced(times, rows) if off.any() else (times, rows)
+        return _resample(times, rows) if off.any() else (times, rows)
     if off[1]:
-        tail_times, tail = _traced(times[-2:], rows[-2:])
+        tail_times, tail = _resample(times[-2:], rows[-2:])
         tail[0, 0] = rows[-2, 0]
         times, rows = np.concatenate([times[:-2], tail_times]), np.concatenate([rows[:-2], tail])
     if off[0]:
-        head_times, head = _traced(times[:2], rows[:2])
+        head_times, head = _resample(times[:2], rows[:2])
         head[-1, 2] = rows[1, 2]
         times, rows = np.concatenate([head_times, times[2:]]), np.concatenate([head, rows[2:]])
     return times, rows
 
 
-def _traced(times: Times, rows: Rows) -> tuple[Times, Rows]:
+def _resample(times: Times, rows: Rows) -> tuple[Times, Rows]:
     """Two keys become several, on the unit sphere, such that the curve through them is near enough."""
     pieces = 1
     while True:
         share = np.linspace(0, 1, pieces + 1)
         seconds = times[0] + share * (times[1] - times[0])
-        value, slope = _on_sphere(*_hermite(times, rows, share))
+        value, slope = _normalise_rows(*_hermite(times, rows, share))
         traced = np.stack([slope, value, slope], axis=1)
         if pieces >= MOST_PIECES or _distance(times, rows, seconds, traced) <= CLOSE:
             return seconds, traced
@@ -54,9 +54,9 @@ def _distance(times: Times, rows: Rows, seconds: Times, traced: Rows) -> float:
     worst = 0.0
     for place in (0.25, 0.5, 0.75):
         between = seconds[:-1] + place * np.diff(seconds)
-        meant, _ = _on_sphere(*_hermite(times, rows, (between - times[0]) / (times[1] - times[0])))
+        meant, _ = _normalise_rows(*_hermite(times, rows, (between - times[0]) / (times[1] - times[0])))
         pairs = [
-            _on_sphere(*_hermite(seconds[i : i + 2], traced[i : i + 2], np.array([place])))[0]
+            _normalise_rows(*_hermite(seconds[i : i + 2], traced[i : i + 2], np.array([place])))[0]
             for i in range(len(between))
         ]
         worst = max(worst, float(np.abs(np.concatenate(pairs) - meant).max()))
@@ -75,7 +75,7 @@ def _hermite(
     return value, slope
 
 
-def _on_sphere(
+def _normalise_rows(
     value: Float[np.ndarray, "some 4"], slope: Float[np.ndarray, "some 4"]
 ) -> tuple[Float[np.ndarray, "some 4"], Float[np.ndarray, "some 4"]]:
     """q / |q| and its derivative, which is across q."""

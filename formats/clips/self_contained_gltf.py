@@ -6,7 +6,7 @@ from typing import Any
 from urllib.parse import unquote
 
 from caesura.core.errors import BrokenContainer
-from caesura.formats.gltf.document import COMPRESSED, Document
+from caesura.formats.gltf.document import COMPRESSED, GltfDocument
 from caesura.formats.gltf.geometry.buffers import Buffers
 
 IMAGES = {
@@ -14,10 +14,10 @@ IMAGES = {
 }  # fmt: skip
 
 
-class SelfContained:
+class SelfContainedGltf:
     """`json` is a copy to be changed at will; `pieces` are (offset, bytes) of the binary chunk, `length` long."""
 
-    def __init__(self, document: Document) -> None:
+    def __init__(self, document: GltfDocument) -> None:
         self.json: dict[str, Any] = _copied(document.root.value)
         self.pieces: list[tuple[int, memoryview]] = []
         self.length = 0
@@ -37,7 +37,7 @@ class SelfContained:
         opened = Buffers(self._document)
         shifts: dict[int, int] = {}
         stand_ins = []
-        named = {part["buffer"] for view in self.json.get("bufferViews", []) for part in addressed(view)}
+        named = {part["buffer"] for view in self.json.get("bufferViews", []) for part in byte_ranges_of_view(view)}
         for index, entry in enumerate(self._document.buffers):
             if "uri" not in entry and (index or not self._document.is_glb):
                 stand_ins.append(index)
@@ -46,7 +46,7 @@ class SelfContained:
         places = {index: (0, shift) for index, shift in shifts.items()}
         places |= {index: (1 + rank, 0) for rank, index in enumerate(stand_ins)}
         for view in self.json.get("bufferViews", []):
-            for part in addressed(view):
+            for part in byte_ranges_of_view(view):
                 part["buffer"], shift = places[part["buffer"]]
                 if shift:
                     part["byteOffset"] = part.get("byteOffset", 0) + shift
@@ -77,7 +77,7 @@ class SelfContained:
         return image in named or bool(self.json.get("extensions"))
 
 
-def addressed(view: dict[str, Any]) -> Iterator[dict[str, Any]]:
+def byte_ranges_of_view(view: dict[str, Any]) -> Iterator[dict[str, Any]]:
     """What of a view says where bytes are: itself, and the extensions that compress it."""
     yield view
     for name in COMPRESSED & view.get("extensions", {}).keys():

@@ -5,9 +5,9 @@ from typing import NamedTuple
 
 from caesura.core.errors import BrokenContainer, InvalidModel
 from caesura.core.limits import Limits
-from caesura.formats.gltf.json_object import Entry
+from caesura.formats.gltf.json_object import JsonObject
 from caesura.formats.notices import Notices
-from caesura.formats.strict_json import parse_object
+from caesura.formats.strict_json import parse_json_object
 
 MAGIC = b"glTF"
 JSON_CHUNK, BINARY_CHUNK = 0x4E4F534A, 0x004E4942
@@ -20,7 +20,7 @@ AGAIN = "Export or upload the file again."
 class Container(NamedTuple):
     """The JSON of a glTF, and the binary chunk of a GLB."""
 
-    root: Entry
+    root: JsonObject
     binary: memoryview | None
     is_glb: bool
 
@@ -62,7 +62,7 @@ def json_chunk_length(head: bytes | memoryview, room: int) -> int:
     return int(length)
 
 
-def check_version(root: Entry) -> None:
+def check_version(root: JsonObject) -> None:
     """Raise unless the file is glTF 2.x and can be read by a reader of 2.0."""
     asset = root.value.get("asset")
     version = asset.get("version") if isinstance(asset, dict) else None
@@ -81,11 +81,11 @@ def _numbers(version: object) -> tuple[int, ...]:
     return tuple(int(part) for part in parts) if len(parts) == 2 and all(p.isdecimal() for p in parts) else ()
 
 
-def parse_root(text: bytes | memoryview, limits: Limits) -> Entry:
+def parse_root(text: bytes | memoryview, limits: Limits) -> JsonObject:
     """The root of the JSON, which must be glTF 2.0."""
     advice = "Send it as a GLB without data in its JSON"
     limits.check("max_json_bytes", len(text), advice)
-    root = Entry(parse_object(text), "")
+    root = JsonObject(parse_json_object(text), "")
     check_version(root)
     return root
 

@@ -5,16 +5,24 @@ from functools import cached_property
 
 from caesura.core.errors import InvalidModel
 from caesura.core.limits import Limits
-from caesura.formats.decode_budget import Budget
+from caesura.formats.decode_budget import DecodeBudget
 from caesura.formats.gltf.container import open_container
-from caesura.formats.gltf.json_object import Entry
+from caesura.formats.gltf.json_object import JsonObject
 from caesura.formats.notices import Notices
 from caesura.formats.take_selection import LONGEST, take_name
 
-HARMLESS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_", "KHR_lights_", "EXT_lights_", "KHR_xmp")
+IGNORABLE_EXTENSIONS = (
+    "KHR_materials_",
+    "KHR_texture_",
+    "EXT_texture_",
+    "MSFT_texture_",
+    "KHR_lights_",
+    "EXT_lights_",
+    "KHR_xmp",
+)
 """Beginnings of the names of extensions that change no vertex: images and materials are never read."""
 
-READ = {
+READABLE_EXTENSIONS = {
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "KHR_animation_pointer",
@@ -29,35 +37,35 @@ COMPRESSED = {"EXT_meshopt_compression", "KHR_meshopt_compression"}
 """Extensions of a buffer view whose bytes are elsewhere, and compressed."""
 
 
-class Document:
+class GltfDocument:
     """An opened glTF. `data` is the file itself, `parts` what was sent beside it, by name."""
 
     def __init__(self, data: memoryview, parts: Mapping[str, memoryview], limits: Limits) -> None:
         self.notices = Notices()
         self.limits = limits
-        self.budget = Budget(limits)
+        self.budget = DecodeBudget(limits)
         self.parts = parts
         self.root, self.binary, self.is_glb = open_container(data, limits, self.notices)
         check_extensions(self.root)
 
     @cached_property
-    def nodes(self) -> list[Entry]:
+    def nodes(self) -> list[JsonObject]:
         """All nodes, of any scene."""
         self.limits.check("max_nodes", len(self.root.values("nodes")), pointer="/nodes")
         return self.root.entries("nodes")
 
     @cached_property
-    def meshes(self) -> list[Entry]:
+    def meshes(self) -> list[JsonObject]:
         """All meshes."""
         return self.root.entries("meshes")
 
     @cached_property
-    def skins(self) -> list[Entry]:
+    def skins(self) -> list[JsonObject]:
         """All skins."""
         return self.root.entries("skins")
 
     @cached_property
-    def animations(self) -> list[Entry]:
+    def animations(self) -> list[JsonObject]:
         """All animations, the takes."""
         self.limits.check("max_takes", len(self.root.values("animations")), pointer="/animations")
         return self.root.entries("animations")
@@ -74,25 +82,25 @@ class Document:
         return [take_name(name, place) for place, name in enumerate(given)]
 
     @cached_property
-    def accessors(self) -> list[Entry]:
+    def accessors(self) -> list[JsonObject]:
         """All accessors."""
         return self.root.entries("accessors")
 
     @cached_property
-    def views(self) -> list[Entry]:
+    def views(self) -> list[JsonObject]:
         """All buffer views."""
         return self.root.entries("bufferViews")
 
     @cached_property
-    def buffers(self) -> list[Entry]:
+    def buffers(self) -> list[JsonObject]:
         """All buffers."""
         return self.root.entries("buffers")
 
 
-def check_extensions(root: Entry) -> None:
+def check_extensions(root: JsonObject) -> None:
     """Raise `unsupported-extension` where the file cannot be understood without one that is not read here."""
     for place, name in enumerate(root.values("extensionsRequired")):
-        if not isinstance(name, str) or (name not in READ and not name.startswith(HARMLESS)):
+        if not isinstance(name, str) or (name not in READABLE_EXTENSIONS and not name.startswith(IGNORABLE_EXTENSIONS)):
             raise unsupported(name if isinstance(name, str) else "?", f"/extensionsRequired/{place}")
 
 

@@ -8,7 +8,7 @@ from caesura.core.errors import InvalidModel
 Json = dict[str, Any]
 
 
-class Entry:
+class JsonObject:
     """A JSON object and the pointer to it. Every question names what it expects, or raises `InvalidModel`.
 
     JSON has one kind of number and Python many: `true` counts as 1, -1 counts from the end of a list, and
@@ -86,13 +86,13 @@ class Entry:
             raise self.refusal(f"{name} holds a number that float32 cannot.", "non-finite-data", name)
         return number
 
-    def entry(self, name: str) -> "Entry | None":
+    def entry(self, name: str) -> "JsonObject | None":
         """The member `name`, an object, or None where it is absent."""
         if name not in self.value:
             return None
         value = self.value[name]
         if isinstance(value, dict):
-            return Entry(value, f"{self.pointer}/{name}")
+            return JsonObject(value, f"{self.pointer}/{name}")
         raise self.refusal(f"{name} must be an object, not {_shown(value)}.", name=name)
 
     def values(self, name: str) -> list[Any]:
@@ -102,15 +102,15 @@ class Entry:
             return value
         raise self.refusal(f"{name} must be a list, not {_shown(value)}.", name=name)
 
-    def entries(self, name: str) -> "list[Entry]":
+    def entries(self, name: str) -> "list[JsonObject]":
         """The member `name`, a list of objects; its absence is an empty one."""
         values = self.values(name)
         for place, value in enumerate(values):
             if not isinstance(value, dict):
                 raise self.refusal(f"{name} must hold objects, not {_shown(value)}.", name=f"{name}/{place}")
-        return [Entry(value, f"{self.pointer}/{name}/{place}") for place, value in enumerate(values)]
+        return [JsonObject(value, f"{self.pointer}/{name}/{place}") for place, value in enumerate(values)]
 
-    def extension(self, *names: str) -> "Entry | None":
+    def extension(self, *names: str) -> "JsonObject | None":
         """The first of the extensions `names` that this object has."""
         extensions = self.entry("extensions")
         if extensions is None:

@@ -9,48 +9,48 @@ from caesura.core.animation import Animation
 from caesura.core.errors import InvalidModel
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
-from caesura.formats.frame_rate import ASSUMED, key_rate
+from caesura.formats.frame_rate import ASSUMED, estimate_key_rate
 from caesura.formats.gltf.animation.channels import Channel
 from caesura.formats.gltf.animation.key_times import MOST_KEYS
-from caesura.formats.gltf.animation.sampled_take import Size, all_takes, one_take
-from caesura.formats.gltf.animation.sampling import Slots, Tracks, read_tracks
-from caesura.formats.gltf.animation.take import chosen_takes
-from caesura.formats.gltf.document import Document
+from caesura.formats.gltf.animation.sampled_take import SceneSize, join_all_takes, sample_one_take
+from caesura.formats.gltf.animation.sampling import KeyTracks, Slots, read_tracks
+from caesura.formats.gltf.animation.take import find_chosen_takes
+from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.geometry.accessors import Accessors
 from caesura.formats.gltf.posing.nodes import NodeGraph, read_nodes, scene_nodes
 from caesura.formats.gltf.posing.skeleton import read_skeleton
-from caesura.formats.gltf.posing.vertices import PosedVertices, rest_pose
-from caesura.formats.gltf.scene_mesh import Figure, joints_figure, read_figure, still_weights
+from caesura.formats.gltf.posing.vertices import PosedVertices, sample_rest_pose
+from caesura.formats.gltf.scene_mesh import SceneMesh, default_morph_weights, joints_as_scene_mesh, read_scene_mesh
 
 
 def read_gltf(data: memoryview, parts: Mapping[str, memoryview], parameters: Parameters, limits: Limits) -> Animation:
     """The animation of a glTF or GLB; `parts` are files sent beside it, found by their exact names."""
-    document = Document(data, parts, limits)
+    document = GltfDocument(data, parts, limits)
     accessors = Accessors(document)
     _ = document.skins  # a list of objects, used or not
     graph = read_nodes(document)
     nodes = scene_nodes(document, graph)
-    chosen = chosen_takes(document, accessors, parameters.take)
+    chosen = find_chosen_takes(document, accessors, parameters.take)
     channels = [channel for take in chosen for channel in take.channels]
-    figure = read_figure(document, accessors, graph, nodes) or _skeleton_figure(document, graph, nodes, channels)
+    figure = read_scene_mesh(document, accessors, graph, nodes) or _skeleton_figure(document, graph, nodes, channels)
     skeleton, still, slots = read_skeleton(graph, figure)
     still, weight_slots = _with_weights(document, graph, figure, still)
     tracks = [read_tracks(accessors, take.channels, still, slots, weight_slots) for take in chosen]
     rate = _rate(document, parameters, max(tracks, key=lambda take: take.duration))
 
-    def pose(take: Tracks, start: float) -> PosedVertices:
+    def pose(take: KeyTracks, start: float) -> PosedVertices:
         return PosedVertices(figure, skeleton, take, weight_slots, rate, start)
 
-    size = Size(len(figure.triangles), len(skeleton.parent) + len(skeleton.bone_node))
+    size = SceneSize(len(figure.triangles), len(skeleton.parent) + len(skeleton.bone_node))
     if len(chosen) == 1:
-        course = one_take(chosen[0], tracks[0], pose, rate, size, parameters, limits)
+        course = sample_one_take(chosen[0], tracks[0], pose, rate, size, parameters, limits)
     else:
-        course = all_takes(chosen, tracks, pose, rate, size, parameters, limits, document.notices)
+        course = join_all_takes(chosen, tracks, pose, rate, size, parameters, limits, document.notices)
     return Animation(
         vertices=course.vertices,
         vertex_count=len(figure.positions),
         triangles=figure.triangles,
-        rest=rest_pose(figure, skeleton, still),
+        rest=sample_rest_pose(figure, skeleton, still),
         frames=course.frames,
         frame_rate=rate,
         take=course.take,
@@ -60,7 +60,7 @@ def read_gltf(data: memoryview, parts: Mapping[str, memoryview], parameters: Par
     )
 
 
-def _skeleton_figure(document: Document, graph: NodeGraph, nodes: list[int], channels: list[Channel]) -> Figure:
+def _skeleton_figure(document: GltfDocument, graph: NodeGraph, nodes: list[int], channels: list[Channel]) -> SceneMesh:
     """The joints that move, where there is no mesh: nodes that are animated, and all below them."""
     moving = {channel.node for channel in channels}
     joints = []
@@ -72,27 +72,27 @@ def _skeleton_figure(document: Document, graph: NodeGraph, nodes: list[int], cha
         raise InvalidModel("no-mesh", "The scene has no mesh, and none of its nodes is animated.", pointer="/nodes")
     document.limits.check("max_vertices", len(joints), pointer="/nodes")
     document.notices.add("skeleton-only", f"The file has no mesh; its {len(joints)} joints were taken.")
-    return joints_figure(np.array(joints, np.int64))
+    return joints_as_scene_mesh(np.array(joints, np.int64))
 
 
 def _with_weights(
-    document: Document, graph: NodeGraph, figure: Figure, still: Float[np.ndarray, "numbers"]
+    document: GltfDocument, graph: NodeGraph, figure: SceneMesh, still: Float[np.ndarray, "numbers"]
 ) -> tuple[Float[np.ndarray, "more"], Slots]:
     """The still pose with morph weights after it, and where those of each node begin."""
     slots: Slots = {}
     rows = [still]
     length = len(still)
     for node in {part.node: None for part in figure.parts if part.targets is not None}:
-        weights = still_weights(document, graph.entries[node])
+        weights = default_morph_weights(document, graph.entries[node])
         slots[node], length = length, length + len(weights)
         rows.append(np.array(weights))
     return np.concatenate(rows), slots
 
 
-def _rate(document: Document, parameters: Parameters, tracks: Tracks) -> float:
+def _rate(document: GltfDocument, parameters: Parameters, tracks: KeyTracks) -> float:
     if parameters.fps != "source":
         return float(parameters.fps)
-    rate = key_rate(tracks.densest[:MOST_KEYS].tolist())
+    rate = estimate_key_rate(tracks.densest[:MOST_KEYS].tolist())
     if rate is None:
         document.notices.add("frame-rate-assumed", f"The keys tell no frame rate; {ASSUMED:g} a second was taken.")
     return rate or ASSUMED

@@ -7,12 +7,12 @@ from jaxtyping import Float, Int
 
 from caesura.core.errors import InvalidModel
 from caesura.formats.gltf.animation.channels import morph_targets
-from caesura.formats.gltf.document import Document
+from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.geometry.accessors import Accessors
-from caesura.formats.gltf.geometry.instances import Instances, read_instances
-from caesura.formats.gltf.geometry.primitives import Outline, Primitive, outlines, read_primitive
-from caesura.formats.gltf.geometry.skin_weights import Influences
-from caesura.formats.gltf.json_object import Entry
+from caesura.formats.gltf.geometry.instances import MeshInstances, read_instances
+from caesura.formats.gltf.geometry.primitives import Primitive, PrimitiveHeader, read_primitive, read_primitive_headers
+from caesura.formats.gltf.geometry.skin_weights import SkinWeights
+from caesura.formats.gltf.json_object import JsonObject
 from caesura.formats.gltf.posing.nodes import NodeGraph
 from caesura.formats.gltf.posing.skins import IDENTITY, Skin, read_skin
 
@@ -21,7 +21,7 @@ BONE_BYTES = 32 * 12 * 8
 
 
 @dataclass(frozen=True)
-class Part:
+class ScenePart:
     """Vertices [start, stop). With `targets` (targets, 3 · vertices) they are displaced, weighted as `node` says."""
 
     start: int
@@ -31,7 +31,7 @@ class Part:
 
 
 @dataclass(frozen=True)
-class Figure:
+class SceneMesh:
     """One body of all primitives: in scene order, depth first, vertices as in their accessors.
 
     Vertex v is moved by the bones `bones[first[v]:first[v + 1]]` with `weights` of sum 1. A bone is a node and the
@@ -49,11 +49,13 @@ class Figure:
     bone_node: Int[np.ndarray, "B"]
     bone_bind: Float[np.ndarray, "B 12"]
     skins: tuple[tuple[int, int], ...]
-    parts: tuple[Part, ...]
+    parts: tuple[ScenePart, ...]
     instanced: bool = False
 
 
-def read_figure(document: Document, accessors: Accessors, graph: NodeGraph, nodes: list[int]) -> Figure | None:
+def read_scene_mesh(
+    document: GltfDocument, accessors: Accessors, graph: NodeGraph, nodes: list[int]
+) -> SceneMesh | None:
     """The body of the scene that has `nodes`, or None where they have no mesh.
 
     Raises `no-mesh` where they have meshes without a triangle, and whatever is wrong with them.
@@ -67,7 +69,7 @@ def read_figure(document: Document, accessors: Accessors, graph: NodeGraph, node
             "The meshes of the file have no triangles. Export the surface, not points or lines.",
             pointer="/meshes",
         )
-    body = _Body(document, accessors)
+    body = _SceneMeshBuilder(document, accessors)
     for node, entry, found, instances in drawn:
         for place in instances.places(accessors) if found else ():
             for outline in found:
@@ -75,10 +77,10 @@ def read_figure(document: Document, accessors: Accessors, graph: NodeGraph, node
     return replace(body.figure(), instanced=any(instances.layouts for *_, instances in drawn))
 
 
-def joints_figure(nodes: Int[np.ndarray, "V"]) -> Figure:
+def joints_as_scene_mesh(nodes: Int[np.ndarray, "V"]) -> SceneMesh:
     """A body whose vertices are the origins of `nodes`, without triangles: a skeleton."""
     count = len(nodes)
-    return Figure(
+    return SceneMesh(
         positions=np.zeros((count, 3), np.float32),
         triangles=np.zeros((0, 3), np.int64),
         first=np.arange(count + 1),
@@ -87,16 +89,16 @@ def joints_figure(nodes: Int[np.ndarray, "V"]) -> Figure:
         bone_node=nodes,
         bone_bind=np.tile(IDENTITY, (count, 1)),
         skins=(),
-        parts=(Part(0, count),),
+        parts=(ScenePart(0, count),),
     )
 
 
 def _drawn(
-    document: Document, accessors: Accessors, graph: NodeGraph, nodes: list[int]
-) -> list[tuple[int, Entry, list[Outline], Instances]]:
+    document: GltfDocument, accessors: Accessors, graph: NodeGraph, nodes: list[int]
+) -> list[tuple[int, JsonObject, list[PrimitiveHeader], MeshInstances]]:
     """Every node with a mesh and its primitives, counted after instancing and before anything is decoded."""
-    found: list[tuple[int, Entry, list[Outline], Instances]] = []
-    known: dict[int, list[Outline]] = {}
+    found: list[tuple[int, JsonObject, list[PrimitiveHeader], MeshInstances]] = []
+    known: dict[int, list[PrimitiveHeader]] = {}
     primitives = vertices = triangles = moved = 0
     for node in nodes:
         entry = graph.entries[node]
@@ -108,7 +110,7 @@ def _drawn(
         at, total = entry.pointer, primitives + times * len(document.meshes[mesh].values("primitives"))
         document.limits.check("max_primitives", total, pointer=at)
         if mesh not in known:
-            known[mesh] = outlines(document, accessors, document.meshes[mesh])
+            known[mesh] = read_primitive_headers(document, accessors, document.meshes[mesh])
         primitives += times * len(known[mesh])
         vertices += times * sum(outline.vertices for outline in known[mesh])
         triangles += times * sum(outline.triangles for outline in known[mesh])
@@ -120,10 +122,10 @@ def _drawn(
     return found
 
 
-class _Body:
+class _SceneMeshBuilder:
     """Gathers primitives into one figure."""
 
-    def __init__(self, document: Document, accessors: Accessors) -> None:
+    def __init__(self, document: GltfDocument, accessors: Accessors) -> None:
         self._document = document
         self._accessors = accessors
         self._decoded: dict[str, Primitive] = {}
@@ -136,10 +138,10 @@ class _Body:
         self._counts: list[Int[np.ndarray, "_"]] = []
         self._joints: list[Int[np.ndarray, "_"]] = []
         self._weights: list[Float[np.ndarray, "_"]] = []
-        self._parts: list[Part] = []
+        self._parts: list[ScenePart] = []
         self._vertices = 0
 
-    def add(self, node: int, entry: Entry, outline: Outline, instance: Float[np.ndarray, "12"]) -> None:
+    def add(self, node: int, entry: JsonObject, outline: PrimitiveHeader, instance: Float[np.ndarray, "12"]) -> None:
         """One primitive of the mesh of `node`, which `instance` takes into the node's own space."""
         place = outline.entry.pointer
         if place not in self._decoded:
@@ -157,9 +159,9 @@ class _Body:
                 self._document.notices.add("skin-unused", f"{place} has no joints; it moves with its node.")
             self._add_rigid(node, len(primitive.positions), instance)
 
-    def figure(self) -> Figure:
+    def figure(self) -> SceneMesh:
         """All that was added."""
-        return Figure(
+        return SceneMesh(
             positions=np.concatenate(self._positions),
             triangles=np.concatenate(self._triangles),
             first=np.concatenate([[0], np.cumsum(np.concatenate(self._counts))]),
@@ -173,18 +175,18 @@ class _Body:
 
     def _add_part(self, start: int, node: int, targets: Float[np.ndarray, "targets V 3"]) -> None:
         if len(targets):
-            self._parts.append(Part(start, self._vertices, node, targets.reshape(len(targets), -1)))
+            self._parts.append(ScenePart(start, self._vertices, node, targets.reshape(len(targets), -1)))
         elif self._parts and self._parts[-1].targets is None:
-            self._parts[-1] = Part(self._parts[-1].start, self._vertices)
+            self._parts[-1] = ScenePart(self._parts[-1].start, self._vertices)
         else:
-            self._parts.append(Part(start, self._vertices))
+            self._parts.append(ScenePart(start, self._vertices))
 
     def _add_rigid(self, node: int, vertices: int, instance: Float[np.ndarray, "12"]) -> None:
         self._counts.append(np.ones(vertices, np.int64))
         self._joints.append(np.full(vertices, self._new_bones(np.array([node]), instance[None])))
         self._weights.append(np.ones(vertices))
 
-    def _add_skinned(self, entry: Entry, place: Entry, influences: Influences) -> None:
+    def _add_skinned(self, entry: JsonObject, place: JsonObject, influences: SkinWeights) -> None:
         number = entry.index("skin", len(self._document.skins), "skins")
         if number not in self._skins:
             skin = read_skin(self._document, self._accessors, number)
@@ -205,7 +207,7 @@ class _Body:
         return start
 
 
-def still_weights(document: Document, node: Entry) -> tuple[float, ...]:
+def default_morph_weights(document: GltfDocument, node: JsonObject) -> tuple[float, ...]:
     """The weights of a node's morph targets where nothing animates them: the node's, the mesh's, or 0."""
     targets = morph_targets(document, node)
     mesh = document.meshes[node.index("mesh", len(document.meshes), "meshes")]

@@ -8,8 +8,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from caesura.formats.frame_rate import key_rate, snapped
-from caesura.formats.gltf.json_object import FLOAT32_MAX, Entry
+from caesura.formats.frame_rate import estimate_key_rate, snap_frame_rate
+from caesura.formats.gltf.json_object import FLOAT32_MAX, JsonObject
 from caesura.formats.take_selection import take_name
 
 TRIANGLES, FAN = 4, 6
@@ -17,7 +17,7 @@ INSTANCING = "EXT_mesh_gpu_instancing"
 
 
 @dataclass(frozen=True)
-class Clip:
+class AnimationSummary:
     """One animation: seconds to its last key, and the rate of its keys where they are even."""
 
     name: str
@@ -25,7 +25,7 @@ class Clip:
     rate: float | None
 
 
-def clips(root: Entry, times: Callable[[Any], Sequence[float]]) -> list[Clip]:
+def summarise_animations(root: JsonObject, times: Callable[[Any], Sequence[float]]) -> list[AnimationSummary]:
     """All animations; `times` tells the keys of an accessor, or nothing, and its bounds and count are believed."""
     accessors = _list(root.value, "accessors")
     found = []
@@ -34,13 +34,13 @@ def clips(root: Entry, times: Callable[[Any], Sequence[float]]) -> list[Clip]:
         densest = max(inputs, key=_count, default=None)
         keys = times(densest)
         seconds = max([*(_bound(accessor, "max") for accessor in inputs), *keys[-1:]], default=0.0)
-        rate = key_rate(keys) if keys else _even_rate(densest)
+        rate = estimate_key_rate(keys) if keys else _even_rate(densest)
         name = take_name(animation.get("name") if isinstance(animation, dict) else None, place)
-        found.append(Clip(name, seconds if seconds <= FLOAT32_MAX else 0.0, rate))
+        found.append(AnimationSummary(name, seconds if seconds <= FLOAT32_MAX else 0.0, rate))
     return found
 
 
-def size_of_scene(root: Entry) -> tuple[int, int]:
+def estimate_scene_size(root: JsonObject) -> tuple[int, int]:
     """Vertices and triangles of all nodes that have a mesh, as often as they draw it, in any scene."""
     accessors, meshes = _list(root.value, "accessors"), _list(root.value, "meshes")
     sizes = [_size_of_mesh(accessors, mesh) for mesh in meshes]
@@ -87,7 +87,7 @@ def _inputs(accessors: list[Any], animation: Any) -> list[int]:
 def _even_rate(accessor: Any) -> float | None:
     """The rate of keys that are as many between their bounds as if one were on every frame."""
     keys, span = _count(accessor), _bound(accessor, "max") - _bound(accessor, "min")
-    return snapped((keys - 1) / span) if keys > 1 and span > 0 else None
+    return snap_frame_rate((keys - 1) / span) if keys > 1 and span > 0 else None
 
 
 def _bound(accessor: Any, name: str) -> float:

@@ -19,7 +19,7 @@ compiled = njit(nogil=True, cache=True, fastmath={"contract", "reassoc", "nsz", 
 
 
 @compiled
-def sample(
+def sample_tracks(
     seconds: Doubles,
     times: Singles,
     first_key: Indices,

@@ -16,7 +16,7 @@ exact = njit(nogil=True, cache=True)
 
 
 @exact
-def attributes(data: Bytes, out: Bytes) -> bool:
+def decode_attributes(data: Bytes, out: Bytes) -> bool:
     """Elements out (count, stride), byte by byte as differences from the one before; versions 0 and 1."""
     count, stride = out.shape
     if len(data) == 0 or (data[0] != 0xA0 and data[0] != 0xA1):

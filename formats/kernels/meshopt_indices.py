@@ -9,7 +9,7 @@ Words = NDArray[np.int64]
 
 MASK = 0xFFFFFFFF
 NOTHING = -1
-TOLD = 15
+EXPLICIT_INDEX = 15
 AT, LAST, NEXT, EDGES, VERTICES = 0, 1, 2, 3, 4
 """Places in the state of a triangle decoder: of the data, two running indices, and how much went into the queues."""
 
@@ -17,7 +17,7 @@ exact = njit(nogil=True, cache=True)
 
 
 @exact
-def sequence(data: Bytes, out: Words) -> bool:
+def decode_index_sequence(data: Bytes, out: Words) -> bool:
     """Mode 2: numbers as differences from one of two that went before."""
     end = len(data) - 4
     if end < 1 or data[0] != 0xD1:
@@ -35,7 +35,7 @@ def sequence(data: Bytes, out: Words) -> bool:
 
 
 @exact
-def triangles(data: Bytes, out: Words) -> bool:
+def decode_triangles(data: Bytes, out: Words) -> bool:
     """Mode 1: out (triangles, 3). A triangle is a code of one byte, from queues of recent edges and vertices."""
     end = len(data) - 16
     if end < 1 + len(out) or data[0] != 0xE1:
@@ -73,7 +73,7 @@ def _beside_an_edge(code: int, data: Bytes, end: int, state: Words, edges: Words
         state[LAST] = (state[LAST] + (1 if way == 14 else -1)) & MASK
         out[2] = state[LAST]
     else:
-        out[2] = _told(data, end, state)
+        out[2] = _explicit_index(data, end, state)
     if out[0] < 0 or out[2] < 0:
         return False
     if way == 0 or way > 12:
@@ -93,18 +93,18 @@ def _alone(code: int, table: Bytes, data: Bytes, end: int, state: Words, vertice
             state[NEXT] = 0
     else:
         ways = table[code & 15] & 255
-        if ways >> 4 == TOLD or ways & 15 == TOLD:
+        if ways >> 4 == EXPLICIT_INDEX or ways & 15 == EXPLICIT_INDEX:
             return False
     second, third = ways >> 4, ways & 15
-    out[0] = _told(data, end, state) if code == 0xFF else _next(state)
+    out[0] = _explicit_index(data, end, state) if code == 0xFF else _next(state)
     out[1] = _vertex(second, data, end, state, vertices)
     out[2] = _vertex(third, data, end, state, vertices)
     if out[0] < 0 or out[1] < 0 or out[2] < 0:
         return False
     _push_vertex(vertices, state, out[0])
-    if second in {0, TOLD}:
+    if second in {0, EXPLICIT_INDEX}:
         _push_vertex(vertices, state, out[1])
-    if third in {0, TOLD}:
+    if third in {0, EXPLICIT_INDEX}:
         _push_vertex(vertices, state, out[2])
     return True
 
@@ -114,8 +114,8 @@ def _vertex(way: int, data: Bytes, end: int, state: Words, vertices: Words) -> i
     """The next vertex, a told one, or a recent one, `NOTHING` where there were fewer."""
     if way == 0:
         return _next(state)
-    if way == TOLD:
-        return _told(data, end, state)
+    if way == EXPLICIT_INDEX:
+        return _explicit_index(data, end, state)
     recent: int = vertices[(state[VERTICES] - way) & 15]
     return recent
 
@@ -129,7 +129,7 @@ def _next(state: Words) -> int:
 
 
 @exact
-def _told(data: Bytes, end: int, state: Words) -> int:
+def _explicit_index(data: Bytes, end: int, state: Words) -> int:
     """An index by its difference from the last one told, or `NOTHING`."""
     value = _number(data, end, state)
     if value < 0:

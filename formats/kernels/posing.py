@@ -24,7 +24,7 @@ def _product(a: Doubles, b: Doubles, out: Doubles) -> None:
 
 
 @compiled
-def worlds(pose: Doubles, parent: Indices, matrix: Doubles, has_matrix: Flags, out: Doubles) -> None:
+def compute_world_matrices(pose: Doubles, parent: Indices, matrix: Doubles, has_matrix: Flags, out: Doubles) -> None:
     """World matrices (frames, N, 12) of nodes whose parents come before them, from poses (frames, 10 N, …)."""
     local = np.empty(12)
     for f in range(len(pose)):
@@ -51,7 +51,7 @@ def _matrix(pose: Doubles, at: int, out: Doubles) -> None:
 
 
 @compiled
-def palette(world: Doubles, joints: Indices, bind: Doubles, out: Doubles) -> None:
+def compute_bone_matrices(world: Doubles, joints: Indices, bind: Doubles, out: Doubles) -> None:
     """world[joint] · bind of every joint, the frames innermost: out (J, 12, frames)."""
     product = np.empty(12)
     for j in range(len(joints)):
@@ -62,7 +62,7 @@ def palette(world: Doubles, joints: Indices, bind: Doubles, out: Doubles) -> Non
 
 
 @exact
-def skin(
+def skin_vertices(
     positions: Singles, first: Indices, joints: Indices, weights: Doubles, matrices: Doubles, start: int, out: Singles
 ) -> bool:
     """Σ weight · matrix[joint] · position of vertices start …, in every frame of out (frames, V, 3); whether finite.
@@ -88,7 +88,7 @@ def skin(
 
 
 @exact
-def skin_morphed(
+def skin_morphed_vertices(
     positions: Singles,
     targets: Singles,
     shares: Doubles,

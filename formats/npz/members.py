@@ -18,7 +18,7 @@ BODY_MODEL = {"poses", "betas", "trans", "body_pose", "global_orient"}
 ONE_FRAME = re.compile(r"(frame|vertices|verts)_?\d+")
 
 
-def members_by_use(archive: Archive, notices: Notices) -> dict[str, str]:
+def find_members_by_use(archive: Archive, notices: Notices) -> dict[str, str]:
     """Which member is which array; raises where vertices or triangles are missing, saying what the file is instead."""
     members = [name for name, info in archive.members.items() if info.filename.endswith(".npy")]
     found = {what: name for what, spellings in SPELLINGS.items() for name in spellings[::-1] if name in members}

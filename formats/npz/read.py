@@ -15,10 +15,10 @@ from caesura.formats.buffer_file import BufferFile
 from caesura.formats.frame_rate import ASSUMED
 from caesura.formats.notices import Notices
 from caesura.formats.npy_header import NpyHeader
-from caesura.formats.npz.members import check_shapes, members_by_use
-from caesura.formats.time_range import counted, stretch
-from caesura.formats.vertex_sequence import VertexSequence, finite
-from caesura.formats.zip.archive import Archive, malformed
+from caesura.formats.npz.members import check_shapes, find_members_by_use
+from caesura.formats.time_range import check_frame_count, parse_time_range
+from caesura.formats.vertex_sequence import VertexSequence, require_finite
+from caesura.formats.zip.archive import Archive, malformed_zip
 
 PIECE = 2**24
 
@@ -33,7 +33,7 @@ def read_npz(
     """
     archive = Archive(cast("BinaryIO", BufferFile(data)), limits)
     notices = Notices()
-    names = members_by_use(archive, notices)
+    names = find_members_by_use(archive, notices)
     headers = {what: archive.header(name) for what, name in names.items()}
     check_shapes(headers, names, limits)
 
@@ -43,12 +43,12 @@ def read_npz(
     triangles = check_triangles(array("triangles"), headers["vertices"].shape[1], notices)
     stored_rate = _frame_rate(array("frame_rate")) if "frame_rate" in names else None
     rest = array("rest").astype(np.float32) if "rest" in names else None
-    if rest is not None and not finite(rest):
+    if rest is not None and not require_finite(rest):
         raise InvalidModel("non-finite-data", "The rest shape holds numbers that are not finite.", pointer="/rest")
-    return sequence(array("vertices"), triangles, rest, stored_rate, parameters, limits, notices)
+    return vertex_sequence_from_arrays(array("vertices"), triangles, rest, stored_rate, parameters, limits, notices)
 
 
-def sequence(
+def vertex_sequence_from_arrays(
     stored: Shaped[np.ndarray, "F V 3"],
     triangles: Int[np.ndarray, "T 3"],
     rest: Float[np.ndarray, "V 3"] | None,
@@ -60,10 +60,10 @@ def sequence(
     """The animation of vertices that are there for every frame, at `stored_rate` frames a second if that is known."""
     rate, fps = _rates(parameters, stored_rate, notices)
     duration = (len(stored) - 1) / rate
-    start, end = stretch(parameters, duration)
-    frames = counted(limits, end - start, fps, len(triangles))
+    start, end = parse_time_range(parameters, duration)
+    frames = check_frame_count(limits, end - start, fps, len(triangles))
     return Animation(
-        vertices=VertexSequence(stored, rate / fps, _nearly_whole(start * rate)),
+        vertices=VertexSequence(stored, rate / fps, _close_to_integer(start * rate)),
         vertex_count=stored.shape[1],
         triangles=triangles,
         rest=rest,
@@ -75,7 +75,7 @@ def sequence(
     )
 
 
-def _nearly_whole(frame: float) -> float:
+def _close_to_integer(frame: float) -> float:
     """A stored frame's number, without the rounding of the seconds that named it."""
     return float(round(frame)) if abs(frame - round(frame)) < 1e-6 else frame
 
@@ -86,31 +86,31 @@ def _array(
     if archive.is_stored(name):
         start, stop = archive.place(name)
         piece = data[start:stop]
-        check_sum(piece, archive.members[name].CRC, name)
+        verify_checksum(piece, archive.members[name].CRC, name)
     else:
-        piece = inflated(archive, name, scratch(archive.members[name].file_size))
+        piece = inflate_member(archive, name, scratch(archive.members[name].file_size))
     return np.ndarray(
         header.shape, np.dtype(header.dtype), piece, header.bytes, order="F" if header.fortran_order else "C"
     )
 
 
-def check_sum(piece: memoryview, expected: int, name: str) -> None:
+def verify_checksum(piece: memoryview, expected: int, name: str) -> None:
     """Raise where a stored member is not what its checksum says."""
     check = 0
     for start in range(0, len(piece), PIECE):
         check = zlib.crc32(piece[start : start + PIECE], check)
     if check != expected:
-        raise malformed(f"has a wrong checksum for {name!r}: it is damaged")
+        raise malformed_zip(f"has a wrong checksum for {name!r}: it is damaged")
 
 
-def inflated(archive: Archive, name: str, room: memoryview) -> memoryview:
+def inflate_member(archive: Archive, name: str, room: memoryview) -> memoryview:
     """One member, inflated into room of exactly the size that it states."""
     with archive.inflate(name) as file:
         filled = 0
         while filled < len(room) and (count := file.readinto(room[filled : filled + PIECE])):  # type: ignore[attr-defined]
             filled += count
         if filled < len(room) or file.read(1):
-            raise malformed(f"has another size of {name!r} than it states")
+            raise malformed_zip(f"has another size of {name!r} than it states")
     return room
 
 

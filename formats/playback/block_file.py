@@ -22,7 +22,7 @@ ALIGNMENT = 8
 TYPES = {"<u4": "uint32", "<u2": "uint16", "<i2": "int16", "|u1": "uint8"}
 
 
-def block_file(
+def write_block_file(
     facts: Mapping[str, Any],
     arrays: Mapping[str, np.ndarray],
     frames: int,

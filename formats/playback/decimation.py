@@ -14,7 +14,7 @@ STEPS = 20  # halvings of the cell's size
 
 
 @dataclass(frozen=True)
-class LighterMesh:
+class DecimatedMesh:
     """`vertices` are the file's vertices that are kept; `triangles` index these; `triangle_of` is each one's origin."""
 
     vertices: Int[np.ndarray, "kept"]
@@ -22,21 +22,21 @@ class LighterMesh:
     triangle_of: Int[np.ndarray, "shown"]
 
 
-def lighter(
+def decimate_mesh(
     poses: Float[np.ndarray, "poses V 3"], triangles: Int[np.ndarray, "T 3"], most: int = 30_000
-) -> LighterMesh:
+) -> DecimatedMesh:
     """The mesh itself where it has at most `most` triangles, else the finest clustering found that has.
 
     The cell's size is found by bisection between nothing and the size of the body.
     """
     if len(triangles) <= most:
         used = np.unique(triangles)
-        return LighterMesh(used, np.searchsorted(used, triangles), np.arange(len(triangles)))
+        return DecimatedMesh(used, np.searchsorted(used, triangles), np.arange(len(triangles)))
     low, high = 0.0, float(np.ptp(poses, axis=1).max())
-    best = _clustered(poses, triangles, high)
+    best = _cluster_vertices(poses, triangles, high)
     for _ in range(STEPS):
         cell = (low + high) / 2
-        attempt = _clustered(poses, triangles, cell)
+        attempt = _cluster_vertices(poses, triangles, cell)
         if len(attempt.triangles) > most:
             low = cell
             continue
@@ -46,7 +46,9 @@ def lighter(
     return best
 
 
-def _clustered(poses: Float[np.ndarray, "poses V 3"], triangles: Int[np.ndarray, "T 3"], cell: float) -> LighterMesh:
+def _cluster_vertices(
+    poses: Float[np.ndarray, "poses V 3"], triangles: Int[np.ndarray, "T 3"], cell: float
+) -> DecimatedMesh:
     """The mesh with one vertex kept of those that share a cell in every pose."""
     lowest = poses.min(axis=1, keepdims=True)
     cells = np.floor((poses - lowest) / cell).astype(np.int64)
@@ -62,4 +64,4 @@ def _clustered(poses: Float[np.ndarray, "poses V 3"], triangles: Int[np.ndarray,
     _, first = np.unique(corners[whole], axis=0, return_index=True)
     origin = whole[np.sort(first)]
     used = np.unique(drawn[origin])
-    return LighterMesh(kept[used], np.searchsorted(used, drawn[origin]), origin)
+    return DecimatedMesh(kept[used], np.searchsorted(used, drawn[origin]), origin)

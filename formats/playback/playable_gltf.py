@@ -16,35 +16,37 @@ from caesura.core.errors import InputError
 from caesura.core.limits import Limits
 from caesura.formats.gltf.animation.channels import WIDTHS, Channel, morph_targets
 from caesura.formats.gltf.animation.take import choose_animation
-from caesura.formats.gltf.document import Document
+from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.geometry.accessors import Accessors
-from caesura.formats.gltf.geometry.primitives import Outline, outlines, read_primitive
-from caesura.formats.gltf.geometry.skin_weights import Influences
-from caesura.formats.gltf.json_object import Entry
+from caesura.formats.gltf.geometry.primitives import PrimitiveHeader, read_primitive, read_primitive_headers
+from caesura.formats.gltf.geometry.skin_weights import SkinWeights
+from caesura.formats.gltf.json_object import JsonObject
 from caesura.formats.gltf.posing.nodes import read_nodes, scene_nodes
 from caesura.formats.gltf.posing.skins import read_skin
-from caesura.formats.gltf.scene_mesh import still_weights
+from caesura.formats.gltf.scene_mesh import default_morph_weights
 from caesura.formats.playback.glb_stream import GlbStream
-from caesura.formats.read import main_part
+from caesura.formats.read import find_main_part
 
 JOINTS_KEPT = 4  # of a vertex; three.js reads JOINTS_0 alone
 PLACEMENT = ("translation", "rotation", "scale", "matrix")
 
 
-def plain_copy(parts: Mapping[str, memoryview], take: int, patch_of_vertex: Int[np.ndarray, "V"]) -> Iterator[bytes]:
+def write_playable_gltf(
+    parts: Mapping[str, memoryview], take: int, patch_of_vertex: Int[np.ndarray, "V"]
+) -> Iterator[bytes]:
     """The GLB, piece by piece. The file has been read before, so its limits are not asked again.
 
     `patch_of_vertex` is in the order in which the reader takes vertices: nodes depth first, then primitives.
     """
     beside = dict(parts)
-    document = Document(beside.pop("" if "" in parts else main_part(parts)), beside, Limits.none())
-    return _Copy(document, take, patch_of_vertex).pieces()
+    document = GltfDocument(beside.pop("" if "" in parts else find_main_part(parts)), beside, Limits.none())
+    return _PlayableGltf(document, take, patch_of_vertex).pieces()
 
 
-class _Copy:
+class _PlayableGltf:
     """The parts of one file, being copied."""
 
-    def __init__(self, document: Document, take: int, patch_of_vertex: Int[np.ndarray, "V"]) -> None:
+    def __init__(self, document: GltfDocument, take: int, patch_of_vertex: Int[np.ndarray, "V"]) -> None:
         self._document = document
         self._accessors = Accessors(document)
         self._patches = patch_of_vertex
@@ -75,7 +77,7 @@ class _Copy:
         mesh = self._document.meshes[entry.index("mesh", len(self._document.meshes), "meshes")]
         skinned: list[dict[str, Any]] = []
         rigid: list[dict[str, Any]] = []
-        for outline in outlines(self._document, self._accessors, mesh):
+        for outline in read_primitive_headers(self._document, self._accessors, mesh):
             primitive, bends = self._primitive(outline, entry)
             (skinned if bends and "skin" in entry else rigid).append(primitive)
         place = self._out.parts["nodes"][node]
@@ -87,12 +89,12 @@ class _Copy:
         if skinned:
             place |= self._shown(skinned, entry) | {"skin": self._skin(entry)}
 
-    def _shown(self, primitives: list[dict[str, Any]], entry: Entry) -> dict[str, Any]:
-        weights = still_weights(self._document, entry)
+    def _shown(self, primitives: list[dict[str, Any]], entry: JsonObject) -> dict[str, Any]:
+        weights = default_morph_weights(self._document, entry)
         mesh = {"primitives": primitives} | ({"weights": list(weights)} if weights else {})
         return {"mesh": self._out.add("meshes", mesh)}
 
-    def _primitive(self, outline: Outline, entry: Entry) -> tuple[dict[str, Any], bool]:
+    def _primitive(self, outline: PrimitiveHeader, entry: JsonObject) -> tuple[dict[str, Any], bool]:
         """One primitive, and whether it has joints."""
         decoded = read_primitive(self._document, self._accessors, outline)
         count = len(decoded.positions)
@@ -105,7 +107,7 @@ class _Copy:
         if normals is not None:
             attributes["NORMAL"] = self._out.array(normals)
         if decoded.influences is not None and "skin" in entry:
-            joints, weights = _strongest(decoded.influences)
+            joints, weights = _strongest_influences(decoded.influences)
             attributes["JOINTS_0"] = self._out.array(joints)
             attributes["WEIGHTS_0"] = self._out.array(weights)
         primitive = {
@@ -118,7 +120,7 @@ class _Copy:
             primitive["targets"] = [{"POSITION": self._out.array(target, bounds=True)} for target in targets]
         return primitive, decoded.influences is not None
 
-    def _normals(self, outline: Outline) -> Float[np.ndarray, "V 3"] | None:
+    def _normals(self, outline: PrimitiveHeader) -> Float[np.ndarray, "V 3"] | None:
         """They only serve the light: faulty ones are left out, and the page draws facets."""
         layout = outline.attributes.get("NORMAL")
         if layout is None or layout.type != "VEC3":
@@ -128,7 +130,7 @@ class _Copy:
         except InputError:
             return None
 
-    def _skin(self, entry: Entry) -> int:
+    def _skin(self, entry: JsonObject) -> int:
         number = entry.index("skin", len(self._document.skins), "skins")
         if number not in self._skins:
             skin = read_skin(self._document, self._accessors, number)
@@ -175,7 +177,7 @@ class _Copy:
         return self._out.drawn("float32", shape, draw)
 
 
-def _strongest(influences: Influences) -> tuple[UInt16[np.ndarray, "V 4"], Float[np.ndarray, "V 4"]]:
+def _strongest_influences(influences: SkinWeights) -> tuple[UInt16[np.ndarray, "V 4"], Float[np.ndarray, "V 4"]]:
     """The four strongest joints of each vertex, uint16, and their weights, float32, of sum 1."""
     order = np.argsort(-influences.weights, axis=1, kind="stable")[:, :JOINTS_KEPT]
     weights = np.take_along_axis(influences.weights, order, 1)

@@ -8,16 +8,16 @@ import numpy as np
 
 from caesura.core.analysis import Analysis
 from caesura.core.animation import Animation
-from caesura.core.block_pass.rest_pose import rest_shape
+from caesura.core.block_pass.rest_pose import compute_rest_pose
 from caesura.core.descriptors.strain import TriangleStrain
-from caesura.core.descriptors.table import SURFACES, Subject, Surface
+from caesura.core.descriptors.table import DESCRIPTORS, Descriptor, DescriptorInput
 from caesura.core.parameters import Parameters
-from caesura.core.progress import Progress, ignore
-from caesura.formats.playback.playable_gltf import plain_copy
-from caesura.formats.playback.strain_blocks import Patches, patches, strain_blocks
-from caesura.formats.playback.vertex_blocks import shown_mesh, vertex_blocks
+from caesura.core.progress import Progress, ignore_progress
+from caesura.formats.playback.playable_gltf import write_playable_gltf
+from caesura.formats.playback.strain_blocks import DisplayPatches, choose_display_patches, write_strain_blocks
+from caesura.formats.playback.vertex_blocks import choose_display_mesh, write_vertex_blocks
 
-UNSTRAINED = {"no-strain", "no-deformation"}
+WITHOUT_STRAIN = {"no-strain", "no-deformation"}
 """Notices of an analysis whose surface does not strain: there is nothing to colour."""
 
 
@@ -33,12 +33,12 @@ class Playback:
     strain: Iterator[bytes] | None
 
 
-def playback(
+def make_playback(
     animation: Animation,
     analysis: Analysis,
     *,
     threads: int = 1,
-    progress: Progress = ignore,
+    progress: Progress = ignore_progress,
 ) -> Playback:
     """The model and its strain, to be written as they are read. `progress` hears the stage "figure" while they are."""
     surface = _patches(animation, analysis)
@@ -46,10 +46,10 @@ def playback(
     shown = {"vertices": animation.vertex_count, "triangles": len(animation.triangles)}
     kind = "vertices" if animation.gltf is None else "gltf"
     if animation.gltf is not None:
-        model = plain_copy(animation.gltf, animation.take.index, of_vertex)
+        model = write_playable_gltf(animation.gltf, animation.take.index, of_vertex)
     else:
-        mesh = shown_mesh(animation)
-        model = vertex_blocks(animation, mesh, of_vertex, threads=threads, progress=progress)
+        mesh = choose_display_mesh(animation)
+        model = write_vertex_blocks(animation, mesh, of_vertex, threads=threads, progress=progress)
         shown = {"vertices": len(mesh.vertices), "triangles": len(mesh.triangles)}
     document = {
         "kind": kind,
@@ -62,20 +62,22 @@ def playback(
     }
     strain = None
     if surface is not None:
-        strain = strain_blocks(animation, surface, analysis.strain_scale, threads=threads, progress=progress)
+        strain = write_strain_blocks(animation, surface, analysis.strain_scale, threads=threads, progress=progress)
     return Playback(document, model, strain)
 
 
-def _patches(animation: Animation, analysis: Analysis) -> Patches | None:
+def _patches(animation: Animation, analysis: Analysis) -> DisplayPatches | None:
     """The patches of a surface that strains, or changes by whatever descriptor was chosen."""
-    if len(animation.triangles) == 0 or UNSTRAINED & {notice.code for notice in analysis.notices}:
+    if len(animation.triangles) == 0 or WITHOUT_STRAIN & {notice.code for notice in analysis.notices}:
         return None
     chosen = Parameters.model_validate(analysis.heavy)
-    if chosen.descriptor not in SURFACES:  # of pairs of points, which have no place on the surface
+    if chosen.descriptor not in DESCRIPTORS:  # of pairs of points, which have no place on the surface
         return None
-    rest = rest_shape(animation, chosen.rest)
+    rest = compute_rest_pose(animation, chosen.rest)
 
-    def descriptor(strain: TriangleStrain) -> Surface:
-        return SURFACES[chosen.descriptor](Subject(animation, rest, strain, chosen))
+    def descriptor(strain: TriangleStrain) -> Descriptor:
+        return DESCRIPTORS[chosen.descriptor](DescriptorInput(animation, rest, strain, chosen))
 
-    return patches(rest, animation.triangles, animation.frames, chosen.strain, chosen.scale_invariant, descriptor)
+    return choose_display_patches(
+        rest, animation.triangles, animation.frames, chosen.strain, chosen.scale_invariant, descriptor
+    )

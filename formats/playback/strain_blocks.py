@@ -15,12 +15,12 @@ from jaxtyping import Float32, Int, UInt8
 from caesura.core.animation import Animation
 from caesura.core.descriptors.patch_means import PatchMeans
 from caesura.core.descriptors.strain import TriangleStrain
-from caesura.core.descriptors.table import Surface
-from caesura.core.frames.blocks import Block, blocks_of, frames_per_block, map_blocks
-from caesura.core.mesh.patches import patch_of_triangles
-from caesura.core.progress import Progress, ignore
-from caesura.core.single_threaded_blas import one_thread
-from caesura.formats.playback.block_file import FRAMES_PER_BLOCK, block_file
+from caesura.core.descriptors.table import Descriptor
+from caesura.core.frames.blocks import Block, frames_per_block, map_blocks, split_into_blocks
+from caesura.core.mesh.patches import assign_patches
+from caesura.core.progress import Progress, ignore_progress
+from caesura.core.single_threaded_blas import single_threaded_blas
+from caesura.formats.playback.block_file import FRAMES_PER_BLOCK, write_block_file
 
 MOST_PATCHES = 512
 FEWEST_PATCHES = 64
@@ -28,59 +28,59 @@ FILE_BYTES = 64 * 2**20
 
 
 @dataclass(frozen=True)
-class Patches:
+class DisplayPatches:
     """The patches of a body, and the patch of each of its vertices (of one of the triangles around it)."""
 
-    surface: Surface
+    surface: Descriptor
     means: PatchMeans
     of_vertex: Int[np.ndarray, "V"]
 
 
-def patches(
+def choose_display_patches(
     rest: Float32[np.ndarray, "V 3"],
     triangles: Int[np.ndarray, "T 3"],
     frames: int,
     measure: str,
     scale_invariant: bool,
-    descriptor: Callable[[TriangleStrain], Surface] = lambda strain: strain,
-) -> Patches:
+    descriptor: Callable[[TriangleStrain], Descriptor] = lambda strain: strain,
+) -> DisplayPatches:
     """The patches to show, of strain or of another `descriptor` of the same triangles.
 
     A patch none of whose triangles can be strained is joined to its neighbour in number.
     """
     count = min(max(FILE_BYTES // frames, FEWEST_PATCHES), MOST_PATCHES)
-    patch = patch_of_triangles(rest, triangles, count)
+    patch = assign_patches(rest, triangles, count)
     strain = TriangleStrain.of(rest, triangles, np.argsort(patch, kind="stable"), measure, scale_invariant)
     met = np.unique(patch[strain.triangles])
     patch = np.searchsorted(met, patch).clip(max=max(len(met) - 1, 0))
     of_vertex = np.zeros(len(rest), np.int64)
     of_vertex[triangles] = patch[:, None]
-    return Patches(descriptor(strain), PatchMeans.of(patch[strain.triangles], strain.areas), of_vertex)
+    return DisplayPatches(descriptor(strain), PatchMeans.of(patch[strain.triangles], strain.areas), of_vertex)
 
 
-def strain_blocks(
-    animation: Animation, shown: Patches, scale: float, *, threads: int = 1, progress: Progress = ignore
+def write_strain_blocks(
+    animation: Animation, shown: DisplayPatches, scale: float, *, threads: int = 1, progress: Progress = ignore_progress
 ) -> Iterator[bytes]:
     """The block file: `patches` bytes a frame. `scale` is the strain that counts as 1. Stage "figure"."""
-    blocks = blocks_of(animation.frames, FRAMES_PER_BLOCK)
+    blocks = split_into_blocks(animation.frames, FRAMES_PER_BLOCK)
 
     def measured(block: Block) -> UInt8[np.ndarray, "block patches"]:
         start, stop = block
         return np.concatenate(
             [
                 _bytes(animation, shown, scale, start + first, start + last)
-                for first, last in blocks_of(stop - start, frames_per_block(animation.vertex_count))
+                for first, last in split_into_blocks(stop - start, frames_per_block(animation.vertex_count))
             ]
         )
 
     found = map_blocks(measured, blocks, threads, progress=progress, stage="figure", total=len(blocks))
     facts = {"kind": "strain", "patches": shown.means.patches, "strain_scale": scale}
-    with one_thread():  # a heat kernel is algebra, whose own threads would wait for ours
-        yield from block_file(facts, {}, animation.frames, shown.means.patches, found)
+    with single_threaded_blas():  # a heat kernel is algebra, whose own threads would wait for ours
+        yield from write_block_file(facts, {}, animation.frames, shown.means.patches, found)
 
 
 def _bytes(
-    animation: Animation, shown: Patches, scale: float, start: int, stop: int
+    animation: Animation, shown: DisplayPatches, scale: float, start: int, stop: int
 ) -> UInt8[np.ndarray, "block patches"]:
     means = shown.means.empty(stop - start)
     vertices = np.ascontiguousarray(animation.vertices(start, stop), np.float32)

@@ -43,17 +43,17 @@ class Archive:
         self._file = file
         self._size = file.seek(0, 2)
         self._check_end()
-        with broken_as_malformed():
+        with broken_zip_as_malformed():
             self._zip = zipfile.ZipFile(file)
         self.members = self._checked(limits)
 
     def header(self, name: str) -> NpyHeader:
         """What the header of one array says, which must agree with the size of its member."""
         info = self.members[name]
-        with broken_as_malformed(), self.inflate(name) as file:
+        with broken_zip_as_malformed(), self.inflate(name) as file:
             header = read_npy_header(file, name)
         if header.bytes + header.data_bytes != info.file_size:
-            raise malformed(
+            raise malformed_zip(
                 f"has {info.file_size:,} bytes for {name!r}, where its shape {header.shape} needs another number"
             )
         return header
@@ -70,7 +70,7 @@ class Archive:
     @contextmanager
     def inflate(self, name: str) -> Iterator[BinaryIO]:
         """The bytes of one member, as a file; its checksum is verified at the end."""
-        with broken_as_malformed(), self._zip.open(self.members[name]) as file:
+        with broken_zip_as_malformed(), self._zip.open(self.members[name]) as file:
             yield file  # type: ignore[misc]  # IO[bytes] is what BinaryIO names
 
     def is_stored(self, name: str) -> bool:
@@ -80,15 +80,15 @@ class Archive:
     def place(self, name: str) -> tuple[int, int]:
         """The bytes [start, stop) of a stored member within the file."""
         info = self.members[name]
-        with broken_as_malformed():
+        with broken_zip_as_malformed():
             self._file.seek(info.header_offset)  # which may be before the beginning
             record = self._file.read(LOCAL.size)
         if len(record) < LOCAL.size:
-            raise malformed("is cut off")
+            raise malformed_zip("is cut off")
         *_, name_length, extra_length = LOCAL.unpack(record)
         start = info.header_offset + LOCAL.size + name_length + extra_length
         if start + info.file_size > self._size:
-            raise malformed("is cut off")
+            raise malformed_zip("is cut off")
         return start, start + info.file_size
 
     def _check_end(self) -> None:
@@ -98,12 +98,12 @@ class Archive:
         tail = self._file.read(tail_size)
         at = tail.rfind(b"PK\5\6")
         if at < 0 or len(tail) - at < END.size:
-            raise malformed("has no directory at its end: it is cut off")
+            raise malformed_zip("has no directory at its end: it is cut off")
         _, _, _, _, members, length, _, _ = END.unpack_from(tail, at)
         if members > self.most_members or length > self.longest_directory:
-            raise malformed(f"has {members} members; {self.most_members} are read at most")
+            raise malformed_zip(f"has {members} members; {self.most_members} are read at most")
         if tail[max(at - 20, 0) : at].startswith(b"PK\6\7") and self._size <= ZIP64_FROM:
-            raise malformed("has a directory for a larger file than it is")
+            raise malformed_zip("has a directory for a larger file than it is")
 
     def _checked(self, limits: Limits) -> dict[str, zipfile.ZipInfo]:
         members: dict[str, zipfile.ZipInfo] = {}
@@ -113,7 +113,7 @@ class Archive:
             if name.startswith("__MACOSX/"):
                 continue  # what a Mac adds of its own
             if name in members or "/" in name or "\\" in name or ".." in name:
-                raise malformed(f"has a member {info.filename[:80]!r}, a path or there twice")
+                raise malformed_zip(f"has a member {info.filename[:80]!r}, a path or there twice")
             members[name] = info
         if not any(info.filename.endswith(".npy") for info in members.values()):
             raise UnsupportedMedia(
@@ -127,17 +127,17 @@ class Archive:
 def check_member(info: zipfile.ZipInfo) -> None:
     """Raise `malformed-npz` for a member that is not read, whatever it is called."""
     if len(info.filename) > LONGEST_NAME:
-        raise malformed(f"has a member whose name is longer than {LONGEST_NAME} letters: {info.filename[:40]!r} …")
+        raise malformed_zip(f"has a member whose name is longer than {LONGEST_NAME} letters: {info.filename[:40]!r} …")
     if info.flag_bits & ENCRYPTED:
-        raise malformed("is encrypted")
+        raise malformed_zip("is encrypted")
     if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
-        raise malformed("is compressed in another way than deflate")
+        raise malformed_zip("is compressed in another way than deflate")
     if info.compress_type == zipfile.ZIP_STORED and info.compress_size != info.file_size:
-        raise malformed(f"has two sizes for {info.filename[:80]!r}")
+        raise malformed_zip(f"has two sizes for {info.filename[:80]!r}")
 
 
 @contextmanager
-def broken_as_malformed() -> Iterator[None]:
+def broken_zip_as_malformed() -> Iterator[None]:
     """Whatever the zip reader stumbles over is the file's fault."""
     try:
         yield
@@ -151,9 +151,9 @@ def broken_as_malformed() -> Iterator[None]:
         struct.error,
         OverflowError,
     ) as wrong:
-        raise malformed(f"cannot be opened ({str(wrong)[:120]})") from None
+        raise malformed_zip(f"cannot be opened ({str(wrong)[:120]})") from None
 
 
-def malformed(what: str) -> BrokenContainer:
+def malformed_zip(what: str) -> BrokenContainer:
     """The refusal of an archive."""
     return BrokenContainer("malformed-npz", f"The archive {what}. Save it again with numpy.savez.")

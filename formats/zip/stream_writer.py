@@ -27,7 +27,7 @@ class _Sink(io.RawIOBase):
         yield from written
 
 
-def zipped(members: Iterable[tuple[str, Iterable[bytes]]], *, deflated: bool) -> Iterator[bytes]:
+def stream_zip(members: Iterable[tuple[str, Iterable[bytes]]], *, deflated: bool) -> Iterator[bytes]:
     """A zip of the members, (name, pieces) each, drawn when their turn comes."""
     sink = _Sink()
     with zipfile.ZipFile(cast("BinaryIO", sink), "w") as archive:

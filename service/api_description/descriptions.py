@@ -4,7 +4,7 @@ from typing import Any
 
 from caesura.core.parameters import Parameters
 from caesura.service.api_description.examples import ANIMATION_ID
-from caesura.service.results.result_formats import FORMS
+from caesura.service.results.result_formats import RESULT_FORMATS
 
 _BYTES: dict[str, Any] = {"type": "string", "format": "binary"}
 _FORM: dict[str, Any] = {
@@ -48,7 +48,7 @@ RESULT: dict[int | str, dict[str, Any]] = {
                 "example": "WEBVTT\n\n00:00:00.000 --> 00:00:06.833\nA\n",
             },
             "text/x-eaf+xml": {"schema": {"type": "string"}},
-            FORMS[2].media_type: {"schema": _BYTES},
+            RESULT_FORMATS[2].media_type: {"schema": _BYTES},
         },
     },
     202: {"description": "The file is being made; ask again."},

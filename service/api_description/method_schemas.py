@@ -5,7 +5,7 @@ from typing import Any, get_args
 
 from pydantic import BaseModel
 
-from caesura.core.parameters import TOLD_MOTIONS, Parameters
+from caesura.core.parameters import METHODS_NEEDING_MOTIONS, Parameters
 
 DESCRIPTIONS = {
     "switching": "Our default: what every frame does is explained by one of K motions, and changing motion costs.",
@@ -26,7 +26,7 @@ class MethodDocument(BaseModel):
 
 
 @cache
-def methods() -> tuple[MethodDocument, ...]:
+def describe_methods() -> tuple[MethodDocument, ...]:
     """All methods, in the order in which they are listed."""
     names = get_args(Parameters.model_fields["method"].annotation)
     return tuple(
@@ -38,7 +38,7 @@ def _schema(method: str) -> dict[str, Any]:
     """The schema of the parameters with the method settled; some methods must be told the number of motions."""
     schema = Parameters.model_json_schema()
     schema["properties"]["method"] = {"const": method, "description": "the method"}
-    if method in TOLD_MOTIONS:
+    if method in METHODS_NEEDING_MOTIONS:
         motions = schema["properties"]["motions"]
         motions |= {"anyOf": [kind for kind in motions["anyOf"] if kind.get("type") == "integer"]}
         del motions["default"]

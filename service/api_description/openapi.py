@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from caesura.core.document import SegmentationDocument
 from caesura.service.api_description.examples import EXAMPLES, PROBLEM
 from caesura.service.problems.status_table import MEDIA_TYPE
-from caesura.service.results.revision_request import RevisionOrder
+from caesura.service.results.revision_request import RevisionRequest
 
 DESCRIPTION = """Finds the motions in a 3D animation: a long take goes in; motions, key-frames and cuts come out.
 
@@ -53,7 +53,7 @@ def _document(app: FastAPI) -> dict[str, Any]:
     document = get_openapi(title=app.title, version=app.version, description=DESCRIPTION, routes=app.routes)
     schemas = document["components"]["schemas"]
     template = "#/components/schemas/{model}"
-    for model in (Problem, SegmentationDocument, RevisionOrder):
+    for model in (Problem, SegmentationDocument, RevisionRequest):
         schema = model.model_json_schema(ref_template=template)
         schemas.update(schema.pop("$defs", {}))
         schemas[model.__name__] = schema

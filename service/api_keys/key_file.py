@@ -40,7 +40,7 @@ class KeyFile:
         return self._keys.get(digest)
 
 
-def line(record: KeyRecord) -> str:
+def key_file_line(record: KeyRecord) -> str:
     """A key as the file has it."""
     return f"{record.name} {record.owner} {record.digest}{' metrics' if record.metrics else ''}"
 

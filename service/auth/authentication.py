@@ -11,7 +11,7 @@ from caesura.worker.records import redis_keys
 
 
 @dataclass(frozen=True)
-class Visitor:
+class Caller:
     """Whose the request is. `key` is the digest of the key, empty where none was needed; `metrics` as the key."""
 
     owner: str
@@ -20,22 +20,22 @@ class Visitor:
     metrics: bool = False
 
 
-async def visitor(backend: Backend, request: Request) -> Visitor | None:
+async def authenticate(backend: Backend, request: Request) -> Caller | None:
     """By the key in `Authorization`, else by the session of the cookie; None where neither is known."""
     scheme, _, key = request.headers.get("authorization", "").partition(" ")
     if scheme:
         record = await find_key(backend, digest_of(key.strip())) if scheme.lower() == "bearer" else None
-        return None if record is None else Visitor(record.owner, record.digest, metrics=record.metrics)
+        return None if record is None else Caller(record.owner, record.digest, metrics=record.metrics)
     identifier = request.cookies.get(sessions.COOKIE)
     digest = await sessions.key_digest(backend.records.redis, identifier) if identifier else None
     record = await find_key(backend, digest) if digest else None
-    return None if record is None else Visitor(record.owner, record.digest, True, record.metrics)
+    return None if record is None else Caller(record.owner, record.digest, True, record.metrics)
 
 
-async def admitted(backend: Backend, request: Request) -> bool:
+async def is_still_admitted(backend: Backend, request: Request) -> bool:
     """Whether who was let in with this request would be now: the key not revoked, the session not signed out."""
-    known: Visitor = request.state.visitor
-    return not known.key or await visitor(backend, request) == known
+    known: Caller = request.state.visitor
+    return not known.key or await authenticate(backend, request) == known
 
 
 async def find_key(backend: Backend, digest: str) -> KeyRecord | None:

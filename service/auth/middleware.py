@@ -10,8 +10,8 @@ from starlette.requests import Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from caesura.service.auth import rate_limit
-from caesura.service.auth.authentication import Visitor, visitor
-from caesura.service.auth.origins import Origins
+from caesura.service.auth.authentication import Caller, authenticate
+from caesura.service.auth.origins import OriginPolicy
 from caesura.service.auth.request_owner import LOCAL_OWNER
 from caesura.service.backend import Backend
 from caesura.service.problems.exception_handlers import unavailable
@@ -25,20 +25,20 @@ METRICS = "/metrics"
 SAFE = frozenset({"GET", "HEAD", "OPTIONS"})
 
 
-class Unknown(Refusal):
+class UnknownCaller(Refusal):
     """Nobody that is known here. The same for a key that never was and for one that is revoked."""
 
     headers = {"WWW-Authenticate": 'Bearer realm="caesura"'}  # noqa: RUF012  as every refusal has them, never changed
 
 
-class Guard:
+class AuthenticationMiddleware:
     """Lets a request in as somebody's, or answers it."""
 
     def __init__(self, app: ASGIApp, settings: ServiceSettings) -> None:
         self._app = app
         self._keys_needed = settings.keys_needed
         self._limit = settings.rate_limit
-        self._origins = Origins(settings.public_hosts)
+        self._origins = OriginPolicy(settings.public_hosts)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Admit or refuse."""
@@ -71,7 +71,7 @@ class Guard:
         if reading and _is_page(request.scope["path"]):
             return {}
         backend: Backend = request.app.state.backend
-        known = await visitor(backend, request) if self._keys_needed else Visitor(LOCAL_OWNER)
+        known = await authenticate(backend, request) if self._keys_needed else Caller(LOCAL_OWNER)
         told = await self._count(backend, request, known)
         if known is None and request.scope["path"] != SESSION:
             raise _unknown(request)
@@ -82,7 +82,7 @@ class Guard:
         request.state.visitor = known
         return told
 
-    def _check_reach(self, known: Visitor, path: str) -> None:
+    def _check_reach(self, known: Caller, path: str) -> None:
         """Raises the refusal where it is not for this key: /metrics has everybody's sums, and keys of its own."""
         if not self._keys_needed or known.metrics == (path == METRICS) or path == SESSION:
             return
@@ -90,14 +90,14 @@ class Guard:
         detail = f"{wanted} The keeper of this service makes one that does: caesura keys add NAME"
         raise Refusal("not-allowed", detail + ("." if known.metrics else " --metrics."))
 
-    async def _count(self, backend: Backend, request: Request, known: Visitor | None) -> dict[str, str]:
+    async def _count(self, backend: Backend, request: Request, known: Caller | None) -> dict[str, str]:
         if not self._limit:
             return {}
         address = request.client.host if request.client else ""
         who = "" if known is None else known.key
-        allowed: rate_limit.Allowed | None = None
+        allowed: rate_limit.RateAllowance | None = None
         with tolerate_full_disk():  # who reads or deletes then is not counted
-            allowed = await rate_limit.take(backend.records.redis, who, address, self._limit)
+            allowed = await rate_limit.take_token(backend.records.redis, who, address, self._limit)
         return {} if allowed is None else allowed.headers()
 
 
@@ -108,6 +108,6 @@ def _is_page(path: str) -> bool:
 
 def _unknown(request: Request) -> Refusal:
     if "authorization" in request.headers:
-        return Unknown("unknown-key", "This key opens nothing here: it is wrong, or it was revoked.")
+        return UnknownCaller("unknown-key", "This key opens nothing here: it is wrong, or it was revoked.")
     detail = "This service wants a key: send `Authorization: Bearer KEY`. Its keeper makes one: caesura keys add NAME."
-    return Unknown("key-needed", detail)
+    return UnknownCaller("key-needed", detail)

@@ -17,7 +17,7 @@ from caesura.service.problems.status_table import Refusal
 DEFAULT_PORTS = {"http": 80, "https": 443}
 
 
-class Origins:
+class OriginPolicy:
     """The names of the service: `localhost`, every address, and those that `public` lists with commas between."""
 
     def __init__(self, public: str) -> None:

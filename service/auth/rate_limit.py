@@ -31,7 +31,7 @@ return {admitted, string.format('%.6f', tokens)}
 
 
 @dataclass(frozen=True)
-class Allowed:
+class RateAllowance:
     """What is left of a bucket after a request."""
 
     limit: int
@@ -47,23 +47,23 @@ class Allowed:
         }
 
 
-class TooMany(Refusal):
+class TooManyRequests(Refusal):
     """Ask again later; `headers` say when."""
 
-    def __init__(self, allowed: Allowed) -> None:
+    def __init__(self, allowed: RateAllowance) -> None:
         wait = max(1, math.ceil((1 - allowed.tokens) * WINDOW_SECONDS / allowed.limit))
         detail = f"More than {allowed.limit} requests in a minute. Ask again in {wait} s."
         super().__init__("too-many-requests", detail, limit=allowed.limit, setting="CAESURA_REQUESTS_A_MINUTE")
         self.headers = {**allowed.headers(), "Retry-After": str(wait)}
 
 
-async def take(client: redis.asyncio.Redis, who: str, address: str, limit: int) -> Allowed:
+async def take_token(client: redis.asyncio.Redis, who: str, address: str, limit: int) -> RateAllowance:
     """Take one request of `limit` a minute out of the bucket of a key (its digest, or none) and an address."""
     bucket = redis_keys.rate_key(who, _network(address))
     admitted, tokens = await client.register_script(SCRIPT)([bucket], [limit, limit / WINDOW_SECONDS])
-    allowed = Allowed(limit, float(tokens))
+    allowed = RateAllowance(limit, float(tokens))
     if not admitted:
-        raise TooMany(allowed)
+        raise TooManyRequests(allowed)
     return allowed
 
 

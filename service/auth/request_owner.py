@@ -8,10 +8,10 @@ LOCAL_OWNER = ""
 """Everybody, where no keys are needed."""
 
 
-async def owner(request: Request) -> str:
+async def request_owner(request: Request) -> str:
     """The owner of what this request makes and sees."""
     found: str = request.state.visitor.owner
     return found
 
 
-Owner = Annotated[str, Depends(owner)]
+Owner = Annotated[str, Depends(request_owner)]

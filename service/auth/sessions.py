@@ -17,10 +17,10 @@ COOKIE = "caesura-session"
 SESSION_SECONDS = 12 * 3600
 
 
-async def begin(client: redis.asyncio.Redis, digest: str, request: Request, response: Response) -> None:
+async def begin_session(client: redis.asyncio.Redis, digest: str, request: Request, response: Response) -> None:
     """Sign in with the key of this digest; the cookie goes with the response."""
     identifier = secrets.token_urlsafe(32)
-    await client.set(_kept(identifier), digest, ex=SESSION_SECONDS)
+    await client.set(_session_digest(identifier), digest, ex=SESSION_SECONDS)
     response.set_cookie(
         COOKIE,
         identifier,
@@ -33,17 +33,17 @@ async def begin(client: redis.asyncio.Redis, digest: str, request: Request, resp
 
 async def key_digest(client: redis.asyncio.Redis, identifier: str) -> str | None:
     """The digest of the key that was given; None where there is no such session, or no longer."""
-    kept = await client.get(_kept(identifier))
+    kept = await client.get(_session_digest(identifier))
     return kept.decode() if isinstance(kept, bytes) else kept
 
 
-async def end(client: redis.asyncio.Redis, request: Request, response: Response) -> None:
+async def end_session(client: redis.asyncio.Redis, request: Request, response: Response) -> None:
     """Sign out; nothing happens where nobody is signed in."""
     identifier = request.cookies.get(COOKIE)
     if identifier:
-        await client.delete(_kept(identifier))
+        await client.delete(_session_digest(identifier))
     response.delete_cookie(COOKIE, httponly=True, samesite="strict", secure=request.url.scheme == "https")
 
 
-def _kept(identifier: str) -> str:
+def _session_digest(identifier: str) -> str:
     return redis_keys.session_key(hashlib.sha256(identifier.encode()).hexdigest())

@@ -13,12 +13,12 @@ from caesura.core.document import SegmentationDocument
 from caesura.core.errors import CaesuraError
 from caesura.service.commands.problems import exit_code
 
-BUG = 1
+BUG_MESSAGE = 1
 """The exit code where a file brought a fault of ours to light."""
 
 
 @dataclass
-class Outcome:
+class FileOutcome:
     """One file: its result, or what was wrong with it."""
 
     path: Path
@@ -30,12 +30,12 @@ class Outcome:
 class Batch:
     """The outcomes so far, in order."""
 
-    outcomes: list[Outcome] = field(default_factory=list)
+    outcomes: list[FileOutcome] = field(default_factory=list)
 
     @contextmanager
-    def file(self, path: Path) -> Iterator[Outcome]:
+    def file(self, path: Path) -> Iterator[FileOutcome]:
         """One file's work; whatever it raises is its outcome, and the next file has its turn."""
-        outcome = Outcome(path)
+        outcome = FileOutcome(path)
         self.outcomes.append(outcome)
         try:
             yield outcome
@@ -53,7 +53,7 @@ class Batch:
         """0 where all went well, else the code of the first that did not."""
         for outcome in self.outcomes:
             if outcome.problem is not None:
-                return BUG if outcome.problem["kind"] == "bug" else exit_code(outcome.problem)
+                return BUG_MESSAGE if outcome.problem["kind"] == "bug" else exit_code(outcome.problem)
         return 0
 
     def table(self) -> str:
@@ -68,7 +68,7 @@ class Batch:
         return "\n".join([*lines, "", f"{done} of {len(self.outcomes)} done"])
 
 
-def _cells(outcome: Outcome) -> str:
+def _cells(outcome: FileOutcome) -> str:
     found = outcome.found
     if outcome.problem is not None or found is None:
         return f"failed: {(outcome.problem or {}).get('code', '')}"

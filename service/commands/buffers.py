@@ -6,7 +6,7 @@ import tempfile
 from pathlib import Path
 
 
-def mapped(path: Path) -> memoryview:
+def map_file(path: Path) -> memoryview:
     """The file's bytes, mapped read-only: only what is looked at is read."""
     with path.open("rb") as file:
         if not path.stat().st_size:
@@ -14,7 +14,7 @@ def mapped(path: Path) -> memoryview:
         return memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
 
 
-def scratch(size: int) -> memoryview:
+def scratch_buffer(size: int) -> memoryview:
     """`size` writable bytes on disk, in a file without a name: gone with the process, however it ends.
 
     The disk is reserved at once: a full one is an OSError here and not a bus error at some later write.

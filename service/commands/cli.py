@@ -7,7 +7,7 @@ import click
 
 from caesura.service.commands.demo import demo
 from caesura.service.commands.keys import keys
-from caesura.service.commands.options import dashes
+from caesura.service.commands.options import with_dashes
 from caesura.service.commands.score import score
 from caesura.service.commands.segment import segment
 from caesura.service.commands.serve import serve
@@ -15,7 +15,7 @@ from caesura.service.commands.submit import submit
 from caesura.service.commands.worker import worker
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "token_normalize_func": dashes})
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "token_normalize_func": with_dashes})
 @click.version_option(package_name="caesura")
 def main() -> None:
     """Find the motions in a 3D animation: key-frames, labels, cuts and named clips.

@@ -42,7 +42,7 @@ def add(name: str, like: str | None, local: bool, metrics: bool, line: bool) -> 
         if like:
             raise ParameterError("invalid-parameter", "With --line, copy the owner from the other key's line.")
         key, record = new_key(name, metrics=metrics)
-        click.echo(f"{key}\n{key_file.line(record)}")
+        click.echo(f"{key}\n{key_file.key_file_line(record)}")
         return
     with _ring() as ring:
         owner = "" if local else ring.named(like).owner if like else None

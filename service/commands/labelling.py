@@ -55,7 +55,7 @@ class Labelling:
         return cls(rate, int(document["frames"]), segments)
 
 
-def agreement(found: Labelling, truth: Labelling) -> dict[str, float]:
+def compute_agreement(found: Labelling, truth: Labelling) -> dict[str, float]:
     """Frame accuracy under the best matching of labels, adjusted Rand index, boundary F1 at each tolerance."""
     if (found.frames, found.frame_rate) != (truth.frames, truth.frame_rate):
         raise InvalidModel(

@@ -14,7 +14,7 @@ from tempfile import TemporaryDirectory
 import httpx
 
 from caesura.service.commands.problems import Unreachable
-from caesura.worker.parent_watch import lifeline
+from caesura.worker.parent_watch import parent_watch
 
 START_SECONDS = 60.0
 STOP_SECONDS = 30.0
@@ -49,7 +49,7 @@ def local_service(port: int) -> Iterator[str]:
                 stdout=output,
                 stderr=output,
                 start_new_session=True,  # Ctrl-C is for this process, which ends the other in order
-                preexec_fn=lifeline(signal.SIGTERM),  # noqa: PLW1509  one prctl call between fork and exec
+                preexec_fn=parent_watch(signal.SIGTERM),  # noqa: PLW1509  one prctl call between fork and exec
             )
         try:
             yield _address(log, process)

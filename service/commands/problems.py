@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from caesura.core.control_characters import escape_control_characters
-from caesura.core.errors import KINDS, CaesuraError, InputError
+from caesura.core.errors import ERROR_KINDS, CaesuraError, InputError
 
 USAGE = 2
 BAD_FILE = 3
@@ -26,10 +26,10 @@ def exit_code(problem: Mapping[str, Any]) -> int:
     kind = problem.get("kind")
     if kind in {"parameter", "usage"}:
         return USAGE
-    return BAD_FILE if issubclass(KINDS.get(str(kind), Exception), InputError) else UNREACHABLE
+    return BAD_FILE if issubclass(ERROR_KINDS.get(str(kind), Exception), InputError) else UNREACHABLE
 
 
-def show(problem: Mapping[str, Any], *, as_json: bool, file: str | None = None) -> int:
+def print_problem(problem: Mapping[str, Any], *, as_json: bool, file: str | None = None) -> int:
     """Say what was wrong, and with which file, on stderr: one sentence, or the problem document; its exit code."""
     if as_json:
         click.echo(json.dumps({**problem, "file": file} if file else problem), err=True)
@@ -51,7 +51,7 @@ class Command(click.Command):
             if not as_json:
                 raise click.UsageError(escape_control_characters(refused.format_message()), refused.ctx) from None
             problem = {"kind": "usage", "code": "usage", "detail": refused.format_message()}
-            raise click.exceptions.Exit(show(problem, as_json=True)) from None
+            raise click.exceptions.Exit(print_problem(problem, as_json=True)) from None
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run; a refusal that the command does not handle itself ends it here."""
@@ -61,12 +61,14 @@ class Command(click.Command):
         except click.UsageError as refused:
             if not as_json:
                 raise click.UsageError(escape_control_characters(refused.format_message()), refused.ctx) from None
-            ctx.exit(show({"kind": "usage", "code": "usage", "detail": refused.format_message()}, as_json=True))
+            ctx.exit(
+                print_problem({"kind": "usage", "code": "usage", "detail": refused.format_message()}, as_json=True)
+            )
         except CaesuraError as refused:
-            ctx.exit(show(refused.problem(), as_json=as_json))
+            ctx.exit(print_problem(refused.problem(), as_json=as_json))
         except ModuleNotFoundError as missing:
             name = (missing.name or "").partition(".")[0]
             if name in {"core", "samples", "service", "worker"} | sys.stdlib_module_names:
                 raise
             detail = f"{name} is not installed, which this command needs. Install caesura[service]."
-            ctx.exit(show(Unreachable("not-installed", detail).problem(), as_json=as_json))
+            ctx.exit(print_problem(Unreachable("not-installed", detail).problem(), as_json=as_json))

@@ -19,14 +19,14 @@ def serve(**given: Any) -> None:
 
     CAESURA_DATA_DIR is the one folder it writes to. Ctrl-C or SIGTERM ends it, and everything that it started.
     """
-    from caesura.service.process.supervisor import serve as supervise
+    from caesura.service.process.supervisor import run_supervisor as supervise
     from caesura.service.settings import ServiceSettings
     from caesura.worker import logs
     from caesura.worker.embedded_redis.data_folder import ServerUnavailable
 
     try:
         settings = ServiceSettings(**{name: value for name, value in given.items() if value is not None})
-        logs.configure(settings.log_format)
+        logs.configure_logging(settings.log_format)
         supervise(settings)
     except ValidationError as refused:
         first = refused.errors()[0]

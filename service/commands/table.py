@@ -6,7 +6,7 @@ from caesura.core.control_characters import escape_control_characters
 from caesura.core.document import SegmentationDocument
 
 
-def table(name: str, found: SegmentationDocument) -> str:
+def print_table(name: str, found: SegmentationDocument) -> str:
     """The headline, a line for each segment, then what the result warns of."""
     lines = [_headline(name, found), "", *_rows(found), *_warnings(found)]
     return "\n".join(map(escape_control_characters, lines))

@@ -17,7 +17,7 @@ def is_json(headers: Headers) -> bool:
     return headers.get("content-type", "").partition(";")[0].strip().lower() == "application/json"
 
 
-async def json_object(request: Request, example: str) -> dict[str, Any]:
+async def read_json_body(request: Request, example: str) -> dict[str, Any]:
     """The object that the body is; raises `Refusal` for what is no JSON object."""
     try:
         given = json.loads(await request.body())

@@ -13,12 +13,12 @@ Limit = Annotated[int, Query(ge=1, le=100, description="how many to list")]
 Cursor = Annotated[str, Query(max_length=64, description="where to go on: from `next` of the page before")]
 
 
-def cursor_of(created: float) -> str:
+def encode_cursor(created: float) -> str:
     """Where the page after an entry begins."""
     return base64.urlsafe_b64encode(repr(created).encode()).decode().rstrip("=")
 
 
-def created_before(cursor: str) -> float | None:
+def decode_cursor(cursor: str) -> float | None:
     """The time of creation that the page's entries are before; None for the first page.
 
     Raises `ParameterError` for a cursor that no page gave.

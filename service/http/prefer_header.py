@@ -9,7 +9,7 @@ LONGEST_WAIT_SECONDS = 30
 _WAIT = re.compile(r"(?:^|[,;\s])wait\s*=\s*\"?(\d{1,6})\"?\s*(?:$|[,;])", re.IGNORECASE)
 
 
-def wait_seconds(request: Request) -> int | None:
+def preferred_wait_seconds(request: Request) -> int | None:
     """Seconds to wait, at most 30; None where none is preferred. What is not understood is ignored, as the RFC says."""
     match = _WAIT.search(",".join(request.headers.getlist("prefer")))
     return min(int(match[1]), LONGEST_WAIT_SECONDS) if match else None

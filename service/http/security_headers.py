@@ -20,7 +20,7 @@ _RAW = [(name.lower().encode(), value.encode()) for name, value in HEADERS.items
 _INLINE_SCRIPT = re.compile(r"<script(?![^>]*\bsrc\s*=)[^>]*>(.*?)</script>", re.DOTALL | re.IGNORECASE)
 
 
-class SecurityHeaders:
+class SecurityHeadersMiddleware:
     """Adds `HEADERS` to every answer that does not set its own."""
 
     def __init__(self, app: ASGIApp) -> None:

@@ -18,28 +18,28 @@ from caesura.worker.store.disk_space import FULL, storage_full
 log = logging.getLogger(__name__)
 
 
-def install(app: FastAPI) -> None:
+def install_handlers(app: FastAPI) -> None:
     """Every way a request can fail, answered as a problem document."""
-    app.exception_handler(CaesuraError)(_known)
-    app.exception_handler(RequestValidationError)(_invalid)
-    app.exception_handler(HTTPException)(_routing)
-    app.exception_handler(ClientDisconnect)(_gone_away)
+    app.exception_handler(CaesuraError)(_handle_caesura_error)
+    app.exception_handler(RequestValidationError)(_handle_invalid_request)
+    app.exception_handler(HTTPException)(_handle_routing_error)
+    app.exception_handler(ClientDisconnect)(_handle_disconnect)
     for unreachable in (redis.ConnectionError, redis.TimeoutError, redis.BusyLoadingError):
-        app.exception_handler(unreachable)(_unavailable)
+        app.exception_handler(unreachable)(_handle_redis_error)
     app.exception_handler(StoreError)(_store_unavailable)
     for full in (redis.OutOfMemoryError, redis.ReadOnlyError):
-        app.exception_handler(full)(_full)
+        app.exception_handler(full)(_handle_full_disk)
     app.exception_handler(redis.ResponseError)(_refused_write)
-    app.exception_handler(BlobMissing)(_no_longer_kept)
-    app.exception_handler(OSError)(_storage)
-    app.exception_handler(Exception)(_bug)
+    app.exception_handler(BlobMissing)(_handle_missing_blob)
+    app.exception_handler(OSError)(_handle_storage_error)
+    app.exception_handler(Exception)(_handle_bug)
 
 
-async def _known(_: Request, error: CaesuraError) -> Response:
+async def _handle_caesura_error(_: Request, error: CaesuraError) -> Response:
     return refusal_response(error) if isinstance(error, Refusal) else problem_response(error.problem())
 
 
-async def _invalid(_: Request, error: RequestValidationError) -> Response:
+async def _handle_invalid_request(_: Request, error: RequestValidationError) -> Response:
     """A query, path or body that does not fit the documented form: the first fault, and where it is."""
     first = error.errors()[0]
     place, *path = (str(step) for step in first["loc"])
@@ -50,7 +50,7 @@ async def _invalid(_: Request, error: RequestValidationError) -> Response:
     )
 
 
-async def _routing(request: Request, error: HTTPException) -> Response:
+async def _handle_routing_error(request: Request, error: HTTPException) -> Response:
     path = request.url.path
     if error.status_code == 405:
         allowed = (error.headers or {}).get("Allow", "")
@@ -62,17 +62,17 @@ async def _routing(request: Request, error: HTTPException) -> Response:
     return problem_response({"kind": "request", "code": "bad-request", "detail": f"{error.detail}."})
 
 
-async def _gone_away(_: Request, __: Exception) -> Response:
+async def _handle_disconnect(_: Request, __: Exception) -> Response:
     """The client hung up: nobody reads this."""
     return Response(status_code=400)
 
 
-async def _no_longer_kept(_: Request, __: Exception) -> Response:
+async def _handle_missing_blob(_: Request, __: Exception) -> Response:
     detail = "This file is no longer kept here: its time has run out. Upload it again."
     return problem_response({"kind": "request", "code": "gone", "detail": detail})
 
 
-async def _storage(_: Request, error: OSError) -> Response:
+async def _handle_storage_error(_: Request, error: OSError) -> Response:
     """No room left is said as such; any other trouble with a file is a fault of ours."""
     if error.errno not in FULL:
         raise error
@@ -88,7 +88,7 @@ async def _refused_write(_: Request, error: redis.ResponseError) -> Response:
     return problem_response(storage_full().problem())
 
 
-async def _unavailable(_: Request, error: Exception) -> Response:
+async def _handle_redis_error(_: Request, error: Exception) -> Response:
     return unavailable(error)
 
 
@@ -106,13 +106,13 @@ async def _store_unavailable(_: Request, error: Exception) -> Response:
     return problem_response({"kind": "infrastructure", "code": "storage-unavailable", "detail": detail})
 
 
-async def _full(_: Request, error: Exception) -> Response:
+async def _handle_full_disk(_: Request, error: Exception) -> Response:
     log.error("Redis takes no more: %s", error)
     detail = "The service has no room for this just now. Nothing was kept; try again later."
     return problem_response({"kind": "infrastructure", "code": "not-ready", "detail": detail})
 
 
-async def _bug(_: Request, __: Exception) -> Response:
+async def _handle_bug(_: Request, __: Exception) -> Response:
     """A fault of ours: logged with its traceback by the server, without details here."""
     detail = "Something went wrong on our side. It has been logged; try again, and tell the keeper if it stays."
     return problem_response({"kind": "internal", "code": "internal-error", "detail": detail})

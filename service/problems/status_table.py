@@ -15,7 +15,7 @@ from caesura.core.errors import CaesuraError
 
 MEDIA_TYPE = "application/problem+json"
 
-STATUS: dict[str, int] = {
+STATUS_OF_CODE: dict[str, int] = {
     # kinds of core.errors: what is wrong with the file or the parameters
     "unsupported-media": 415,
     "broken-container": 400,
@@ -70,7 +70,7 @@ class Refusal(CaesuraError):
 
 def status_of(problem: Mapping[str, Any]) -> int:
     """The HTTP status of a problem, raised here or stored by a worker."""
-    return STATUS.get(problem["code"]) or STATUS.get(problem.get("kind", ""), 500)
+    return STATUS_OF_CODE.get(problem["code"]) or STATUS_OF_CODE.get(problem.get("kind", ""), 500)
 
 
 def problem_response(problem: Mapping[str, Any], headers: Mapping[str, str] | None = None) -> Response:

@@ -6,14 +6,14 @@ import subprocess
 import sys
 import time
 
-from caesura.worker.parent_watch import lifeline
+from caesura.worker.parent_watch import parent_watch
 
 log = logging.getLogger(__name__)
 
 RESTART_SECONDS = 1.0
 
 
-class Child:
+class ChildProcess:
     """`python -m` with some arguments; `keep` are the files that it inherits."""
 
     def __init__(
@@ -33,7 +33,7 @@ class Child:
             stdin=subprocess.DEVNULL,
             pass_fds=self._keep,
             start_new_session=True,  # Ctrl-C is for us: we end the children in order
-            preexec_fn=lifeline(),  # noqa: PLW1509  one prctl call between fork and exec
+            preexec_fn=parent_watch(),  # noqa: PLW1509  one prctl call between fork and exec
         )
 
     def look(self) -> None:

@@ -12,14 +12,14 @@ import time
 from collections.abc import Callable
 from contextlib import closing
 
-from caesura.service.http.address import address, answers, listen
-from caesura.service.process.child import Child
+from caesura.service.http.address import address_of_socket, is_answering, open_listening_socket
+from caesura.service.process.child import ChildProcess
 from caesura.service.settings import ServiceSettings
 from caesura.worker.embedded_redis.server import EmbeddedRedis
 from caesura.worker.private_folder import make_private
-from caesura.worker.process.worker_registry import forget_workers
+from caesura.worker.process.worker_registry import remove_dead_workers
 from caesura.worker.queue.jobs import Jobs
-from caesura.worker.queue.orphaned_jobs import recover
+from caesura.worker.queue.orphaned_jobs import recover_orphaned_jobs
 from caesura.worker.records.connection import connect, tolerate_full_disk
 from caesura.worker.records.layout_version import check_layout
 
@@ -32,11 +32,11 @@ WORKER_GRACE_SECONDS = 12.0
 OnReady = Callable[[str], None]
 
 
-def serve(settings: ServiceSettings, on_ready: OnReady | None = None) -> None:
+def run_supervisor(settings: ServiceSettings, on_ready: OnReady | None = None) -> None:
     """Run until SIGINT or SIGTERM; call `on_ready` with the address once it answers. Main thread only."""
     stopping = _stop_signals()
     make_private(settings.data_dir)
-    with closing(listen(settings.host, settings.port)) as listening:
+    with closing(open_listening_socket(settings.host, settings.port)) as listening:
         server = None if settings.redis_url else EmbeddedRedis(settings.redis_dir, settings.redis_server_bin)
         try:
             if server is not None:
@@ -59,8 +59,10 @@ def _watch(
 ) -> None:
     environment = settings.environment()
     number = listening.fileno()
-    web = Child("the web process", ["caesura.service.process.web", "--socket", str(number)], environment, (number,))
-    workers = Child("the worker pool", ["worker"], environment)
+    web = ChildProcess(
+        "the web process", ["caesura.service.process.web", "--socket", str(number)], environment, (number,)
+    )
+    workers = ChildProcess("the worker pool", ["worker"], environment)
     ready = False
     try:
         while not stopping:
@@ -70,9 +72,9 @@ def _watch(
                 server.start()
             web.look()
             workers.look()
-            if not ready and answers(listening):
+            if not ready and is_answering(listening):
                 ready = True
-                on_ready(address(listening))
+                on_ready(address_of_socket(listening))
                 if settings.keys_needed:
                     log.info("Every call needs a key here; `caesura keys add NAME` makes one")
     finally:
@@ -86,8 +88,8 @@ def _recover(settings: ServiceSettings) -> None:
     """Our own server holds what was left at the last end, and nobody can be working on it now."""
     client = connect(settings.redis_location)
     check_layout(client)
-    forget_workers(client)
-    lost = recover(Jobs.open(settings))
+    remove_dead_workers(client)
+    lost = recover_orphaned_jobs(Jobs.open(settings))
     if lost:
         log.warning("%d jobs were running at the last end; they are tried again", lost)
 

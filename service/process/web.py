@@ -15,7 +15,7 @@ def main() -> None:
     parser.add_argument("--socket", type=int, required=True, help="number of the inherited, bound socket")
     listening = socket.socket(fileno=parser.parse_args().socket)
     settings = ServiceSettings()
-    logs.configure(settings.log_format)
+    logs.configure_logging(settings.log_format)
     Server(create_app(settings), proxies=settings.proxies).run(sockets=[listening])
 
 

@@ -17,7 +17,7 @@ _RANGE = re.compile(r"bytes=(\d{0,18})-(\d{0,18})")
 
 
 @dataclass(frozen=True)
-class Stored:
+class StoredFile:
     """A blob to send: where it is, what it is, what to call it once saved, and the tag of exactly these bytes."""
 
     key: str
@@ -27,7 +27,7 @@ class Stored:
     etag: str
 
 
-def requested(header: str, size: int) -> tuple[int, int] | None:
+def parse_range(header: str, size: int) -> tuple[int, int] | None:
     """Bytes [start, end) of a Range header; None for the whole (also where several ranges are asked for).
 
     Raises `Refusal` ("range-not-satisfiable") for a range beyond the end.
@@ -43,35 +43,35 @@ def requested(header: str, size: int) -> tuple[int, int] | None:
     return start, end
 
 
-def not_modified(request: Request, etag: str) -> bool:
+def is_not_modified(request: Request, etag: str) -> bool:
     """Whether the client already has what carries this tag."""
     tags = {tag.strip().removeprefix("W/") for tag in request.headers.get("if-none-match", "").split(",")}
     return etag.removeprefix("W/") in tags or "*" in tags
 
 
-def caching(etag: str) -> dict[str, str]:
+def cache_headers(etag: str) -> dict[str, str]:
     """Headers of a body that never changes under its id: keep it, but ask before using it (it may be deleted)."""
     return {"ETag": etag, "Cache-Control": "private, no-cache"}
 
 
-def attachment(filename: str) -> str:
+def content_disposition(filename: str) -> str:
     """The header that names a download, in plain letters too: curl reads no `filename*`."""
     name = plain_name(filename) or "download"
     plain = re.sub(r"[^A-Za-z0-9 ._()+-]", "_", name)
     return f"attachment; filename=\"{plain}\"; filename*=UTF-8''{quote(name, safe='')}"
 
 
-def stored_response(request: Request, blobs: Blobs, stored: Stored) -> Response:
+def stored_response(request: Request, blobs: Blobs, stored: StoredFile) -> Response:
     """The blob, or the range of it that was asked for, or 304."""
-    headers = caching(stored.etag) | {
+    headers = cache_headers(stored.etag) | {
         "Accept-Ranges": "bytes",
-        "Content-Disposition": attachment(stored.filename),
+        "Content-Disposition": content_disposition(stored.filename),
     }
-    if not_modified(request, stored.etag):
+    if is_not_modified(request, stored.etag):
         return Response(status_code=304, headers=headers)
     wanted = None
     if request.headers.get("if-range", stored.etag) == stored.etag:
-        wanted = requested(request.headers.get("range", ""), stored.size)
+        wanted = parse_range(request.headers.get("range", ""), stored.size)
     start, end = wanted or (0, stored.size)
     headers["Content-Length"] = str(end - start)
     if wanted:

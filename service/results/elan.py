@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from caesura.core.document import SegmentationDocument
-from caesura.core.plot.svg import FORBIDDEN
+from caesura.core.plot.svg import FORBIDDEN_CHARACTERS
 
 SCHEMA = "http://www.mpi.nl/tools/elan/EAFv3.0.xsd"
 INSTANCE = "http://www.w3.org/2001/XMLSchema-instance"
@@ -46,7 +46,7 @@ def _in_milliseconds(annotations: Iterable[Annotation]) -> Iterator[Interval]:
     for start, end, value in annotations:
         begin = max(round(start * 1000), free)
         free = max(round(end * 1000), begin + 1)
-        yield begin, free, FORBIDDEN.sub("", value)
+        yield begin, free, FORBIDDEN_CHARACTERS.sub("", value)
 
 
 def _text(tiers: dict[str, list[Interval]]) -> str:

@@ -6,48 +6,50 @@ from caesura.service.problems.status_table import Refusal
 
 
 @dataclass(frozen=True)
-class Form:
+class ResultFormat:
     """One form: the suffix that asks for it, and its media type."""
 
     suffix: str
     media_type: str
 
 
-FORMS = (
-    Form("json", "application/json"),
-    Form("csv", "text/csv"),
-    Form("npz", "application/x-npz"),
-    Form("vtt", "text/vtt"),
-    Form("eaf", "text/x-eaf+xml"),
+RESULT_FORMATS = (
+    ResultFormat("json", "application/json"),
+    ResultFormat("csv", "text/csv"),
+    ResultFormat("npz", "application/x-npz"),
+    ResultFormat("vtt", "text/vtt"),
+    ResultFormat("eaf", "text/x-eaf+xml"),
 )
 
 
-PLOTS = (Form("svg", "image/svg+xml"), Form("png", "image/png"))
+PLOT_FORMATS = (ResultFormat("svg", "image/svg+xml"), ResultFormat("png", "image/png"))
 
 
-def by_suffix(suffix: str) -> Form:
+def format_by_suffix(suffix: str) -> ResultFormat:
     """The form of an address that ends in `result.suffix`."""
-    return _called(suffix, FORMS, "result")
+    return _called(suffix, RESULT_FORMATS, "result")
 
 
-def plot_by_suffix(suffix: str) -> Form:
+def plot_format_by_suffix(suffix: str) -> ResultFormat:
     """The form of an address that ends in `plot.suffix`."""
-    return _called(suffix, PLOTS, "plot")
+    return _called(suffix, PLOT_FORMATS, "plot")
 
 
-def _called(suffix: str, forms: tuple[Form, ...], what: str) -> Form:
+def _called(suffix: str, forms: tuple[ResultFormat, ...], what: str) -> ResultFormat:
     for form in forms:
         if form.suffix == suffix:
             return form
     raise Refusal("not-found", f"There is no {what}.{suffix[:20]}. There are: {_listed(forms)}.")
 
 
-def by_accept(header: str) -> Form:
+def format_by_accept(header: str) -> ResultFormat:
     """The form that an Accept header likes best (RFC 9110, section 12.5.1); JSON where anything will do."""
     wanted = [_quality(item) for item in header.split(",") if item.strip()] or [("*/*", 1.0)]
-    best = max(FORMS, key=lambda form: _liking(form, wanted))
+    best = max(RESULT_FORMATS, key=lambda form: _liking(form, wanted))
     if _liking(best, wanted) <= 0:
-        raise Refusal("not-acceptable", f"The result does not come as {header}. It comes as: {_listed(FORMS)}.")
+        raise Refusal(
+            "not-acceptable", f"The result does not come as {header}. It comes as: {_listed(RESULT_FORMATS)}."
+        )
     return best
 
 
@@ -60,7 +62,7 @@ def _quality(item: str) -> tuple[str, float]:
         return media_type, 0.0
 
 
-def _liking(form: Form, wanted: list[tuple[str, float]]) -> float:
+def _liking(form: ResultFormat, wanted: list[tuple[str, float]]) -> float:
     """The quality of the most specific item that matches."""
     for pattern in (form.media_type, form.media_type.split("/")[0] + "/*", "*/*"):
         for media_type, quality in wanted:
@@ -69,5 +71,5 @@ def _liking(form: Form, wanted: list[tuple[str, float]]) -> float:
     return 0.0
 
 
-def _listed(forms: tuple[Form, ...]) -> str:
+def _listed(forms: tuple[ResultFormat, ...]) -> str:
     return ", ".join(f".{form.suffix} ({form.media_type})" for form in forms)

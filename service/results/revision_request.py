@@ -9,9 +9,9 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from caesura.core.document import SegmentationDocument
 from caesura.core.errors import ParameterError
-from caesura.core.revision import Edit, revised
+from caesura.core.revision import Edit, apply_revision
 from caesura.service.backend import Backend
-from caesura.service.http.json_body import json_object
+from caesura.service.http.json_body import read_json_body
 from caesura.service.problems.status_table import Refusal
 from caesura.worker.records.revisions import MOST_REVISIONS, Revisions
 from caesura.worker.records.schema import SegmentationRecord
@@ -24,7 +24,7 @@ WHICH = "which revision: 0 is the result as computed, `latest` the newest"
 Revision = Annotated[str, Query(description=WHICH)]
 
 
-class RevisionOrder(BaseModel):
+class RevisionRequest(BaseModel):
     """A revision to be: the segments of the whole take in order, and what to say about it."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
@@ -33,7 +33,7 @@ class RevisionOrder(BaseModel):
     note: str = Field("", max_length=LONGEST_NOTE, description="a line about what was changed")
 
 
-def number_of(record: SegmentationRecord, revision: str) -> int:
+def revision_number(record: SegmentationRecord, revision: str) -> int:
     """The number that `revision` means: 0, a number, or `latest`.
 
     Raises `ParameterError` for another word, `Refusal` ("not-found") for a revision that there is not.
@@ -49,7 +49,7 @@ def number_of(record: SegmentationRecord, revision: str) -> int:
     return int(revision)
 
 
-def expected(request: Request) -> int | None:
+def expected_revision(request: Request) -> int | None:
     """The revision that the client has edited, as If-Match says; None for `*`, whichever that is.
 
     Raises `Refusal` where it says nothing (428), or what is no tag of a revision (412).
@@ -66,11 +66,11 @@ def expected(request: Request) -> int | None:
     return int(tag[1])
 
 
-async def order_of(request: Request) -> RevisionOrder:
+async def parse_revision_request(request: Request) -> RevisionRequest:
     """The body, shaped as it must be; raises `ParameterError` with a pointer to the first fault."""
-    given = await json_object(request, '{"segments": […], "note": ""}')
+    given = await read_json_body(request, '{"segments": […], "note": ""}')
     try:
-        order = RevisionOrder.model_validate(given)
+        order = RevisionRequest.model_validate(given)
     except ValidationError as refused:
         first = refused.errors(include_url=False, include_context=False, include_input=False)[0]
         pointer = "".join("/" + str(step).replace("~", "~0").replace("/", "~1") for step in first["loc"])
@@ -81,7 +81,7 @@ async def order_of(request: Request) -> RevisionOrder:
     return order
 
 
-def stale(record: SegmentationRecord) -> Refusal:
+def refuse_stale_revision(record: SegmentationRecord) -> Refusal:
     """Why a revision was not kept."""
     if record.revision >= MOST_REVISIONS:
         detail = f"The result has {MOST_REVISIONS} revisions, as many as are kept. Cut the take anew to edit further."
@@ -90,7 +90,7 @@ def stale(record: SegmentationRecord) -> Refusal:
     return Refusal("stale-revision", detail, current=record.revision)
 
 
-async def document_of(backend: Backend, record: SegmentationRecord, number: int) -> SegmentationDocument:
+async def revised_document(backend: Backend, record: SegmentationRecord, number: int) -> SegmentationDocument:
     """The result as it reads with that revision; raises `Refusal` where it was deleted meanwhile."""
     stored = await backend.records.document(record.id)
     kept = await Revisions(backend.records).one(record.id, number) if number else None
@@ -101,4 +101,4 @@ async def document_of(backend: Backend, record: SegmentationRecord, number: int)
 
 def _read(stored: bytes | str, number: int, edits: tuple[Edit, ...] | None) -> SegmentationDocument:
     document = SegmentationDocument.model_validate_json(stored)
-    return document if edits is None else revised(document, number, edits)
+    return document if edits is None else apply_revision(document, number, edits)

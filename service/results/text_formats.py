@@ -5,8 +5,8 @@ import io
 from collections.abc import Iterable, Iterator
 
 from caesura.core.document import Segment, SegmentationDocument
-from caesura.core.plot.layout import picture_of
-from caesura.core.plot.svg import svg
+from caesura.core.plot.layout import lay_out_picture
+from caesura.core.plot.svg import render_svg
 
 SEGMENT_COLUMNS = ("name", "motion", "start", "end", "start_seconds", "end_seconds", "confidence", "loop", "discard")
 FRAME_COLUMNS = ("frame", "seconds", "motion", "name", "energy", "key_frame")
@@ -54,7 +54,7 @@ def segments_vtt(document: SegmentationDocument) -> str:
 
 def plot_svg(document: SegmentationDocument) -> str:
     """The energy curve over the segments, to be pasted into a paper."""
-    return svg(picture_of(document))
+    return render_svg(lay_out_picture(document))
 
 
 def _said(segment: Segment) -> tuple[object, ...]:

@@ -5,9 +5,9 @@ from pydantic import BaseModel
 
 from caesura.core.limits import Limits
 from caesura.core.parameters import ALGORITHM, Parameters
-from caesura.service.api_description.method_schemas import MethodDocument, methods
-from caesura.service.backend import Behind
-from caesura.service.segmentations.status_response import answer
+from caesura.service.api_description.method_schemas import MethodDocument, describe_methods
+from caesura.service.backend import BackendDependency
+from caesura.service.segmentations.status_response import status_response
 
 router = APIRouter(prefix="/v1", tags=["about"])
 
@@ -30,11 +30,11 @@ class LimitsDocument(Limits):
 async def list_methods() -> Response:
     """The methods, each with the JSON Schema of its parameters."""
     default = Parameters.model_fields["method"].default
-    return answer(MethodList(algorithm=ALGORITHM, default=default, methods=methods()))
+    return status_response(MethodList(algorithm=ALGORITHM, default=default, methods=describe_methods()))
 
 
 @router.get("/limits", response_model=LimitsDocument)
-async def limits(backend: Behind) -> Response:
+async def limits(backend: BackendDependency) -> Response:
     """How large an upload and a model may be here."""
     settings = backend.settings
-    return answer(LimitsDocument(**settings.limits.model_dump(), max_upload_bytes=settings.max_upload_bytes))
+    return status_response(LimitsDocument(**settings.limits.model_dump(), max_upload_bytes=settings.max_upload_bytes))

@@ -11,7 +11,7 @@ from caesura.worker.records.schema import SegmentationRecord
 
 QUIET_SECONDS = 15.0
 
-Admitted = Callable[[], Awaitable[bool]]
+IsAdmitted = Callable[[], Awaitable[bool]]
 """Whether who listens may still do so."""
 
 
@@ -20,7 +20,7 @@ def event_id(record: SegmentationRecord) -> str:
     return f"{record.updated:.6f}"
 
 
-async def seated(seat: AbstractContextManager[None], stream: AsyncGenerator[str]) -> AsyncIterator[str]:
+async def counted_stream(seat: AbstractContextManager[None], stream: AsyncGenerator[str]) -> AsyncIterator[str]:
     """The same stream, which takes a seat from its first word until it is over or left."""
     with seat:
         async with aclosing(stream):
@@ -28,7 +28,7 @@ async def seated(seat: AbstractContextManager[None], stream: AsyncGenerator[str]
                 yield text
 
 
-async def status_events(backend: Backend, identifier: str, last_seen: str, admitted: Admitted) -> AsyncGenerator[str]:
+async def status_events(backend: Backend, identifier: str, last_seen: str, admitted: IsAdmitted) -> AsyncGenerator[str]:
     """The stream's text: `status` events with a status document each; `deleted` where it is deleted meanwhile.
 
     A state that the client has seen, as its Last-Event-ID says, is not sent again. It ends before the next word, and
@@ -38,7 +38,7 @@ async def status_events(backend: Backend, identifier: str, last_seen: str, admit
     spoke = current_time()
     async with aclosing(backend.records.changes(identifier)) as changes:
         while True:
-            with backend.patience() as patience:
+            with backend.limited_wait() as patience:
                 record = await anext(changes)
             if patience.cancelled_caught or not await admitted():
                 return

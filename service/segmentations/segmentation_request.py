@@ -7,11 +7,11 @@ from typing import Any, Self
 from fastapi import Request
 
 from caesura.core.errors import ParameterError
-from caesura.service.http.json_body import json_object
+from caesura.service.http.json_body import read_json_body
 
 
 @dataclass(frozen=True)
-class Order:
+class SegmentationRequest:
     """`animation` is empty where the body is the file itself. `parameters` are as given, not yet checked."""
 
     animation: str = ""
@@ -29,28 +29,28 @@ class Order:
         return replace(self, name=self.name or name, parameters={**self.parameters, **rest})
 
 
-def query_order(query: Mapping[str, str]) -> Order:
+def request_from_query(query: Mapping[str, str]) -> SegmentationRequest:
     """From the query: `animation` and `name`, and every parameter by its name."""
-    return _order(dict(query), "")
+    return _make_request(dict(query), "")
 
 
-async def json_order(request: Request) -> Order:
+async def request_from_json(request: Request) -> SegmentationRequest:
     """From a JSON body, with the same names. Raises `Refusal` for what is no JSON object."""
-    given = await json_object(request, '{"animation": "…", "motions": 5}')
+    given = await read_json_body(request, '{"animation": "…", "motions": 5}')
     if request.query_params:
         detail = "Parameters of a JSON call belong into the JSON, not into the query."
         raise ParameterError("misplaced-parameter", detail, parameter=next(iter(request.query_params)))
     if not given.get("animation"):
         detail = 'The JSON must name an animation: {"animation": "…"}. Upload the file first, or send it as the body.'
         raise ParameterError("missing-parameter", detail, parameter="animation", pointer="/animation")
-    return _order(given, "/")
+    return _make_request(given, "/")
 
 
-def _order(given: dict[str, Any], pointer: str) -> Order:
+def _make_request(given: dict[str, Any], pointer: str) -> SegmentationRequest:
     names = {}
     for name in ("animation", "name"):
         value = names[name] = given.pop(name, "")
         if not isinstance(value, str) or len(value) > 1000:
             where = f"{pointer}{name}" if pointer else None
             raise ParameterError("invalid-parameter", f"{name} must be a text.", parameter=name, pointer=where)
-    return Order(names["animation"], names["name"], given)
+    return SegmentationRequest(names["animation"], names["name"], given)

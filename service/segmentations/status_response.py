@@ -7,14 +7,14 @@ from pydantic import BaseModel
 
 from caesura.service.backend import Backend
 from caesura.service.documents import StatusDocument
-from caesura.service.http.prefer_header import wait_seconds
+from caesura.service.http.prefer_header import preferred_wait_seconds
 from caesura.service.problems.status_table import problem_response
 from caesura.worker.records.schema import SegmentationRecord
 
 ASK_AGAIN = {"Retry-After": "1"}
 
 
-def answer(document: BaseModel, status: int = 200, headers: Mapping[str, str] | None = None) -> Response:
+def status_response(document: BaseModel, status: int = 200, headers: Mapping[str, str] | None = None) -> Response:
     """A document as JSON."""
     text = document.model_dump_json()
     return Response(text, status, {"Cache-Control": "no-store", **(headers or {})}, "application/json")
@@ -22,21 +22,21 @@ def answer(document: BaseModel, status: int = 200, headers: Mapping[str, str] | 
 
 def preference_applied(request: Request) -> dict[str, str]:
     """The header that tells how long was waited at most, where waiting was asked for."""
-    seconds = wait_seconds(request)
+    seconds = preferred_wait_seconds(request)
     return {} if seconds is None else {"Preference-Applied": f"wait={seconds}"}
 
 
-async def outcome(backend: Backend, request: Request, record: SegmentationRecord) -> Response:
+async def submission_response(backend: Backend, request: Request, record: SegmentationRecord) -> Response:
     """The answer to a submission, after the wait that the client prefers.
 
     A segmentation that failed answers with its own 4xx or 5xx, so that `curl --fail` and scripts notice.
     """
-    record = await backend.awaited(record, wait_seconds(request))
+    record = await backend.wait_until_settled(record, preferred_wait_seconds(request))
     headers = {"Location": f"/v1/segmentations/{record.id}", **preference_applied(request)}
     if record.live:
-        return answer(StatusDocument.of(record, await backend.position(record)), 202, headers | ASK_AGAIN)
+        return status_response(StatusDocument.of(record, await backend.position(record)), 202, headers | ASK_AGAIN)
     if record.status == "done":
-        return answer(StatusDocument.of(record), 200, headers)
+        return status_response(StatusDocument.of(record), 200, headers)
     return problem_response(problem_of(record), headers)
 
 

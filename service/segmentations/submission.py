@@ -3,37 +3,39 @@
 import time
 from collections.abc import Sequence
 
-from caesura.core.parameters import ALGORITHM, TOLD_MOTIONS, Parameters
-from caesura.formats.take_selection import choose_take
+from caesura.core.parameters import ALGORITHM, METHODS_NEEDING_MOTIONS, Parameters
+from caesura.formats.take_selection import select_take
 from caesura.service.backend import Backend
 from caesura.service.problems.status_table import Refusal
 from caesura.worker import logs
-from caesura.worker.alternatives import recall
+from caesura.worker.alternatives import restore_alternative
 from caesura.worker.records import content_ids
 from caesura.worker.records.schema import AnimationRecord, SegmentationRecord, TakeSummary
 
 
-def resolved(parameters: Parameters, takes: Sequence[TakeSummary]) -> Parameters:
+def resolve_parameters(parameters: Parameters, takes: Sequence[TakeSummary]) -> Parameters:
     """The same with the take by its index, so that its name, its index and `longest` are one segmentation.
 
     Raises `ParameterError` for a take that is not there. What a header does not tell is left to the worker.
     """
     if not takes:
         return parameters
-    place = choose_take([take.name for take in takes], parameters.take)
+    place = select_take([take.name for take in takes], parameters.take)
     if place is None:
         place = max(range(len(takes)), key=lambda index: takes[index].duration_seconds)
     return parameters.model_copy(update={"take": takes[place].index})
 
 
-def submit(backend: Backend, animation: AnimationRecord, parameters: Parameters, name: str) -> SegmentationRecord:
+def submit_segmentation(
+    backend: Backend, animation: AnimationRecord, parameters: Parameters, name: str
+) -> SegmentationRecord:
     """The segmentation, queued now or before; done, where the answer was stored though nobody had asked for it.
 
     Blocks: run it on a thread.
 
     Raises `Refusal` ("gone") where it would have to be computed and the upload's files are no longer kept.
     """
-    chosen = resolved(parameters, backend.jobs.records.animations.takes(animation))
+    chosen = resolve_parameters(parameters, backend.jobs.records.animations.takes(animation))
     identifier = _identifier(backend, animation, chosen)
     now = time.time()
     wanted = SegmentationRecord(
@@ -47,9 +49,9 @@ def submit(backend: Backend, animation: AnimationRecord, parameters: Parameters,
         created=now,
         updated=now,
     )
-    if chosen.motions != "auto" and chosen.method not in TOLD_MOTIONS:
+    if chosen.motions != "auto" and chosen.method not in METHODS_NEEDING_MOTIONS:
         unasked = _identifier(backend, animation, chosen.model_copy(update={"motions": "auto"}))
-        stored = recall(backend.jobs.records, wanted, unasked)
+        stored = restore_alternative(backend.jobs.records, wanted, unasked)
         if stored is not None:
             return stored
     if not animation.parts:

@@ -6,7 +6,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from caesura.core.errors import LimitExceeded
 from caesura.service.http.json_body import is_json
-from caesura.service.uploads.multipart import OVERHEAD_BYTES, boundary
+from caesura.service.uploads.multipart import OVERHEAD_BYTES, multipart_boundary
 
 JSON_BYTES = 256 * 1024
 
@@ -30,7 +30,7 @@ class BodyLimit:
         headers = Headers(scope=scope)
         upload = _is_upload(scope["path"], headers)
         limit = self._upload_bytes if upload else JSON_BYTES
-        form_bytes = OVERHEAD_BYTES if upload and boundary(headers.get("content-type", "")) else 0
+        form_bytes = OVERHEAD_BYTES if upload and multipart_boundary(headers.get("content-type", "")) else 0
         count, announced = 0, int(headers.get("content-length", 0))
 
         async def bounded() -> Message:

@@ -14,19 +14,19 @@ from obstore.exceptions import BaseError as StoreError
 from redis import Redis
 from redis.exceptions import RedisError
 
-from caesura.service.backend import Backend, Behind
+from caesura.service.backend import Backend, BackendDependency
 from caesura.service.problems.status_table import Refusal
 from caesura.worker.process.worker_registry import unserved
 from caesura.worker.records.connection import refuses_writes
 
-FULL = 0.8
+FULL_SHARE = 0.8
 """Share of the memory that Redis may use above which no more work is taken."""
 
 BELIEVED_SECONDS = 1.0
 PATIENCE_SECONDS = 3.0
 
 
-class Headroom:
+class Capacity:
     """What was seen last."""
 
     def __init__(self) -> None:
@@ -37,24 +37,24 @@ class Headroom:
         """What there is no room in, or what does not answer, as a sentence; empty where all is well."""
         now = time.monotonic()
         if now - self._seen >= BELIEVED_SECONDS:
-            self._wrong = await looked(backend)
+            self._wrong = await look_for_capacity(backend)
             self._seen = now
         return self._wrong
 
 
-async def looked(backend: Backend) -> str:
+async def look_for_capacity(backend: Backend) -> str:
     """The same, looked at now; what takes too long to answer does not answer."""
     with move_on_after(PATIENCE_SECONDS):
-        return await to_thread.run_sync(_look, backend, abandon_on_cancel=True)
+        return await to_thread.run_sync(_find_shortage, backend, abandon_on_cancel=True)
     return "The service waits for its Redis or its store."
 
 
-def _look(backend: Backend) -> str:
+def _find_shortage(backend: Backend) -> str:
     settings = backend.settings
     try:
         backend.jobs.redis.ping()
-        if _redis_share(backend.jobs.redis) >= FULL:
-            return f"Redis uses {FULL:.0%} of the memory it may, and takes no more work until results have gone."
+        if _redis_share(backend.jobs.redis) >= FULL_SHARE:
+            return f"Redis uses {FULL_SHARE:.0%} of the memory it may, and takes no more work until results have gone."
         backend.spool.mkdir(parents=True, exist_ok=True)
         if not os.access(backend.spool, os.W_OK):
             return "The service cannot write to its data folder."
@@ -81,11 +81,11 @@ async def idle(backend: Backend) -> str:
     return f"No worker is ready to take jobs from {' and '.join(queues)}." if queues else ""
 
 
-async def room(request: Request, backend: Behind) -> None:
+async def require_capacity(request: Request, backend: BackendDependency) -> None:
     """Refuse new work that there is no room for."""
     if request.method != "POST":
         return
-    seen: Headroom = request.app.state.headroom
+    seen: Capacity = request.app.state.headroom
     wrong = await seen.wrong(backend)
     if wrong:
         raise Refusal("not-ready", f"{wrong} Nothing was kept; try again later.")

@@ -23,7 +23,7 @@ OVERHEAD_BYTES = MAX_PARTS * 64 * 1024
 """What boundaries and part headers may add to the files themselves: the parser allows less than this a part."""
 
 
-def boundary(content_type: str) -> bytes | None:
+def multipart_boundary(content_type: str) -> bytes | None:
     """The boundary, where the header announces a multipart form."""
     kind, options = parse_options_header(content_type)
     return options.get(b"boundary") if kind == b"multipart/form-data" else None

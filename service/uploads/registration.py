@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from redis.exceptions import ResponseError
 
 from caesura.core.errors import UnsupportedMedia
-from caesura.formats.file_type import SNIFFED, sniff
+from caesura.formats.file_type import SIGNATURE_BYTES, detect_file_type
 from caesura.formats.header import Header, read_header
 from caesura.service.backend import Backend
 from caesura.service.http.file_name import plain_name
@@ -16,7 +16,7 @@ from caesura.worker.records import content_ids, schema
 from caesura.worker.records.schema import AnimationRecord, TakeSummary
 
 
-def keep(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tuple[AnimationRecord, bool]:
+def register_upload(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tuple[AnimationRecord, bool]:
     """The animation these files are, and whether it is new. Blocks: run it on a thread.
 
     The same files again are the same animation, whatever they are called now; one of which the store has lost a file is
@@ -72,7 +72,7 @@ def _main(backend: Backend, parts: tuple[Part, ...]) -> Part:
         raise Refusal("no-file", "The form holds no file. Send one with a filename, as curl -F file=@FILE does.")
     if len(parts) == 1:
         return parts[0]
-    twice = _twice(part.name for part in parts)
+    twice = _find_repeated_name(part.name for part in parts)
     if twice is not None:
         raise Refusal("duplicate-part", f"Two files of the form are called {twice!r}. Send each once.")
     readable = [part for part in parts if _is_readable(part)]
@@ -100,7 +100,7 @@ def _is_readable(part: Part) -> bool:
         return False
     with part.path.open("rb") as file:
         try:
-            sniff(file.read(SNIFFED))
+            detect_file_type(file.read(SIGNATURE_BYTES))
         except UnsupportedMedia:
             return False
     return True
@@ -111,7 +111,7 @@ def _header(backend: Backend, part: Part) -> Header:
         return read_header(file, part.name, backend.settings.limits)
 
 
-def _twice(names: Iterable[str]) -> str | None:
+def _find_repeated_name(names: Iterable[str]) -> str | None:
     seen: set[str] = set()
     for name in names:
         if name in seen:

@@ -5,7 +5,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from caesura.worker.store.temporary_files import held_file, path_of, write_all
+from caesura.worker.store.temporary_files import file_path, locked_temporary_file, write_all
 
 
 @dataclass(frozen=True)
@@ -23,8 +23,8 @@ class SpoolFile:
 
     def __init__(self, folder: Path, name: str) -> None:
         self.name = name
-        self._file = held_file(folder)
-        self.path = path_of(self._file)
+        self._file = locked_temporary_file(folder)
+        self.path = file_path(self._file)
         self._digest = hashlib.sha256()
         self._bytes = 0
 

@@ -14,7 +14,7 @@ from fastapi import Request
 
 from caesura.service.backend import Backend
 from caesura.service.problems.status_table import Refusal
-from caesura.service.uploads.multipart import MultipartBody, boundary
+from caesura.service.uploads.multipart import MultipartBody, multipart_boundary
 from caesura.service.uploads.spool import Part, SpoolFile
 from caesura.worker.store.disk_space import check_disk_space
 
@@ -30,7 +30,7 @@ class Upload:
     fields: dict[str, str] = field(default_factory=dict)
 
 
-class Body(Protocol):
+class UploadBody(Protocol):
     """Takes a body block by block."""
 
     def feed(self, block: bytes) -> None:
@@ -63,20 +63,20 @@ class RawBody:
 
 
 @asynccontextmanager
-async def received(request: Request, backend: Backend) -> AsyncIterator[Upload]:
+async def receive_upload(request: Request, backend: Backend) -> AsyncIterator[Upload]:
     """The upload of `request`, in the spool until the block ends; what is to stay must have been moved by then.
 
     Raises `StorageFull` where what is still to come would fill the disk, for others may be sending too, and `Refusal`
     ("not-ready") where the process is told to stop before all has come.
     """
     settings, folder = backend.settings, backend.spool
-    mark = boundary(request.headers.get("content-type", ""))
-    body: Body = await to_thread.run_sync(
+    mark = multipart_boundary(request.headers.get("content-type", ""))
+    body: UploadBody = await to_thread.run_sync(
         lambda: MultipartBody(folder, mark) if mark else RawBody(folder, request.query_params.get("name", ""))
     )
     try:
         left = int(request.headers.get("content-length", 0))
-        with backend.patience() as scope:
+        with backend.limited_wait() as scope:
             async for block in _blocks(request):
                 left = max(left, len(block))
                 await to_thread.run_sync(check_disk_space, folder, left, settings.min_free_bytes)

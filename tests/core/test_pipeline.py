@@ -277,9 +277,9 @@ def test_many_peaks_are_kept_as_patch_means(performance, analysed, monkeypatch):
 
 def small_budget(*arguments):
     """Strain at the peaks with room for nothing."""
-    from caesura.core.block_pass.strain_at_peaks import peak_strain
+    from caesura.core.block_pass.strain_at_peaks import measure_strain_at_peaks
 
-    return peak_strain(*arguments, most_bytes=0)
+    return measure_strain_at_peaks(*arguments, most_bytes=0)
 
 
 def test_an_analysis_survives_being_stored(analysed):

@@ -7,7 +7,7 @@ import pytest
 
 from caesura.core.errors import BrokenContainer, CaesuraError, InvalidModel, LimitExceeded
 from caesura.core.limits import Limits
-from caesura.formats.bvh.hierarchy import read_head
+from caesura.formats.bvh.hierarchy import read_bvh_header
 from caesura.formats.header import HeaderTake, read_header
 from tests.formats.opening import codes, opened
 
@@ -151,12 +151,12 @@ def test_ends_below_ends_do_not_grow_their_names() -> None:
     depth = 1000
     nested = "HIERARCHY ROOT Hips { OFFSET 0 0 0 CHANNELS 1 Zrotation"
     nested += " End Site { OFFSET 0 1 0" * depth + " }" * (depth + 1) + "\nMOTION\nFrames: 2\nFrame Time: 0.04\n0\n9\n"
-    head = read_head(nested.encode(), Limits())
+    head = read_bvh_header(nested.encode(), Limits())
     assert max(len(joint.name) for joint in head.joints) == len("Hips end")
     first = nested.replace("ROOT Hips { OFFSET 0 0 0 CHANNELS 1 Zrotation", "").replace(
         " }" * (depth + 1), " }" * depth
     )
-    assert read_head(first.encode(), Limits()).joints[0].name == " end"
+    assert read_bvh_header(first.encode(), Limits()).joints[0].name == " end"
 
 
 def test_joints_of_several_orders_are_turned_together_or_alone(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,7 +3,7 @@
 import pytest
 
 from caesura.core.errors import UnsupportedMedia
-from caesura.formats.file_type import sniff
+from caesura.formats.file_type import detect_file_type
 
 
 @pytest.mark.parametrize(
@@ -20,7 +20,7 @@ from caesura.formats.file_type import sniff
 )
 def test_formats_that_are_read_are_known_by_their_first_bytes(head: bytes, kind: str) -> None:
     """JSON in the wrong form is sent on too: its reader says what is wrong with it."""
-    assert sniff(head) == kind
+    assert detect_file_type(head) == kind
 
 
 @pytest.mark.parametrize(
@@ -40,5 +40,5 @@ def test_formats_that_are_read_are_known_by_their_first_bytes(head: bytes, kind:
 def test_other_files_are_refused_by_what_they_are(head: bytes, says: str) -> None:
     """So that a person knows what to send instead."""
     with pytest.raises(UnsupportedMedia, match=says) as refused:
-        sniff(head)
+        detect_file_type(head)
     assert refused.value.code == "unsupported-media-type"

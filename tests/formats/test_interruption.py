@@ -5,8 +5,7 @@ import sys
 import zipfile
 from typing import Any
 
-from tests.formats.test_draco import compressed
-
+from tests.formats.gltf.test_draco import compressed
 from tests.formats.opening import opened
 from tests.formats.test_bvh import ARM
 from tests.formats.test_npz import npz

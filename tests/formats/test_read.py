@@ -10,7 +10,7 @@ import pytest
 from caesura.core.errors import InvalidModel, UnsupportedMedia
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
-from caesura.formats.read import read_animation, takes
+from caesura.formats.read import list_takes, read_animation
 from tests.formats.opening import opened
 from tests.formats.test_npz import FRAMES, npz
 from tests.glb import bending_strip, moving_square
@@ -29,9 +29,9 @@ def test_files_may_be_mapped(tmp_path: Path) -> None:
 
 def test_the_takes_of_an_upload_are_told_before_it_is_read() -> None:
     """Of a glTF its animations, of a sequence the sequence."""
-    (take,) = takes({"x": moving_square().glb()}, Limits())
+    (take,) = list_takes({"x": moving_square().glb()}, Limits())
     assert (take.index, take.name, take.frames, take.frame_rate) == (0, "take 0", 31, 30.0)
-    (take,) = takes({"x": npz(frame_rate=25)}, Limits())
+    (take,) = list_takes({"x": npz(frame_rate=25)}, Limits())
     assert (take.frames, take.frame_rate) == (len(FRAMES), 25)
 
 

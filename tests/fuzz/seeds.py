@@ -4,16 +4,16 @@ import zipfile
 from collections.abc import Iterator
 
 import numpy as np
-from tests.formats.test_draco import compressed
-from tests.formats.test_instances import instanced
-from tests.formats.test_pairing import mesh, skeleton
 
 from caesura.core.limits import Limits
-from caesura.formats.bvh.gltf_conversion import bvh_as_gltf
-from caesura.worker.process.warm_up import moving_gltf
+from caesura.formats.bvh.gltf_conversion import convert_bvh_to_glb
+from caesura.worker.process.warm_up import example_gltf
 from tests.formats import test_hostile_gltf as hostile
 from tests.formats import test_hostile_npz as archives
+from tests.formats.gltf.test_draco import compressed
+from tests.formats.gltf.test_instances import instanced
 from tests.formats.test_bvh import ARM
+from tests.formats.test_mesh_and_motion import mesh, skeleton
 from tests.formats.test_npz import npz
 from tests.formats.test_zip import separate, shapes, zipped
 from tests.fuzz.parts import joined
@@ -56,13 +56,13 @@ def _good() -> Iterator[bytes]:
     yield compressed().glb()
     yield instanced(TRANSLATION=([[0, 0, 0], [0, 5, 0]], "float32"), SCALE=([[1, 1, 1], [2, 2, 2]], "float32")).glb()
     yield _packed().glb()
-    yield moving_gltf()
+    yield example_gltf()
     yield npz()
     yield npz(deflate=True, frame_rate=25.0, rest=np.zeros((5, 3)))
     yield npz(vertices=np.asfortranarray(archives.FRAMES.astype(">f8")))
     yield npz(vertices=archives.FRAMES.astype("f2"), triangles=archives.TRIANGLES.astype("u1"))
     yield ARM.encode()
-    yield bvh_as_gltf(memoryview(ARM.encode()), Limits())
+    yield convert_bvh_to_glb(memoryview(ARM.encode()), Limits())
     yield zipped(separate())
     yield zipped(separate(), zipfile.ZIP_STORED)
     yield zipped({"export/arm.bvh": ARM.encode()})

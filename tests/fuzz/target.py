@@ -8,7 +8,7 @@ from caesura.core.errors import CaesuraError
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
 from caesura.formats.header import read_header
-from caesura.formats.read import read_animation, takes
+from caesura.formats.read import list_takes, read_animation
 from tests.fuzz.parts import parted
 
 LIMITS = Limits(
@@ -64,7 +64,7 @@ def _header(parts: dict[str, bytes]) -> None:
 
 def _takes(parts: dict[str, bytes]) -> None:
     try:
-        takes(parts, LIMITS)
+        list_takes(parts, LIMITS)
     except CaesuraError as refused:
         _told(refused)
 

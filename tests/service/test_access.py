@@ -10,7 +10,7 @@ import redis
 from click.testing import CliRunner
 
 from caesura.service.api_keys.credentials import new_key
-from caesura.service.api_keys.key_file import line
+from caesura.service.api_keys.key_file import key_file_line
 from caesura.service.app import create_app
 from caesura.service.commands.cli import main
 from caesura.service.commands.key_ring import KeyRing
@@ -35,7 +35,7 @@ def guarded(checkout, tmp_path_factory):
     """A service that wants keys, with two owners and what the first has uploaded."""
     folder = tmp_path_factory.mktemp("guarded")
     late, late_record = new_key("mounted")
-    (folder / "keys").write_text(f"# keys\n{line(late_record)}\n")
+    (folder / "keys").write_text(f"# keys\n{key_file_line(late_record)}\n")
     with with_its_own_redis(checkout, folder, workers=False, access="keys", keys_file=folder / "keys") as running:
         asking = Guarded(running, late)
         yield asking
@@ -233,7 +233,7 @@ def test_sums_of_everybody_are_for_a_key_of_their_own(owned):
     mounted, mounted_record = new_key("prometheus-2", metrics=True)
     file = owned.running.data / "keys"
     kept = file.read_text()
-    file.write_text(kept + line(mounted_record) + "\n")
+    file.write_text(kept + key_file_line(mounted_record) + "\n")
     for opening in (key, mounted):
         assert "caesura_requests_total" in owned.ask("GET /metrics", opening).text
         for call in CALLS:
@@ -263,7 +263,7 @@ def test_a_mounted_file_of_keys_is_read_again_when_it_changes(owned):
     file = owned.running.data / "keys"
     assert owned.ask("GET /v1/limits", owned.mounted).status_code == 200
     key, record = new_key("second")
-    file.write_text(f"no line of ours\n{line(record)}  # for the farm\n")
+    file.write_text(f"no line of ours\n{key_file_line(record)}  # for the farm\n")
     assert owned.ask("GET /v1/limits", key).status_code == 200
     assert owned.ask("GET /v1/limits", owned.mounted).status_code == 401
     file.unlink()

@@ -104,7 +104,7 @@ def test_clips_go_with_the_upload(service):
     assert fetched(service, here).content.startswith(b"glTF")
     jobs, blobs = Jobs(connect(service.redis_url)), Blobs.open(str(service.data / "blobs"), service.data / "scratch")
     copy = jobs.records.exports.one(made["id"], "clips").key
-    jobs.redis.zadd(redis_keys.USED_KEY, {made["animation"]: 0})
+    jobs.redis.zadd(redis_keys.LAST_USED_KEY, {made["animation"]: 0})
     sweep(jobs, blobs, 1e9, 1e9)
     answer = service.http.get(here)
     assert (answer.status_code, answer.json()["code"]) == (410, "gone")

@@ -8,9 +8,9 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from tests.formats.test_draco import HOSTILE as DRACO
 
 from caesura.core.limits import Limits
+from tests.formats.gltf.test_draco import HOSTILE as DRACO
 from tests.formats.test_hostile_gltf import (
     ACCESSORS,
     ANIMATIONS,

@@ -3,7 +3,7 @@
 import pytest
 
 from caesura.worker.process.rq_worker import CaesuraWorker
-from caesura.worker.process.worker_registry import IDLE_SECONDS, alive_here
+from caesura.worker.process.worker_registry import IDLE_SECONDS, has_live_worker_here
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.records import redis_keys
 from caesura.worker.records.connection import connect
@@ -59,10 +59,10 @@ def test_a_worker_that_was_killed_is_missed(lonely, start):
     """Its sign of life is Redis's to end, whatever clocks say."""
     sign = redis_keys.worker_key(start("analyse", "cut").name)
     with connect(lonely.redis_url) as client:
-        assert alive_here(client)
+        assert has_live_worker_here(client)
         assert 0 < client.ttl(sign) <= IDLE_SECONDS
         client.delete(sign)
-        assert not alive_here(client)
+        assert not has_live_worker_here(client)
     assert readiness(lonely)[0] == 503
 
 

@@ -8,7 +8,7 @@ import time
 import pytest
 from prometheus_client.parser import text_string_to_metric_families
 
-from caesura.service.uploads.capacity import FULL
+from caesura.service.uploads.capacity import FULL_SHARE
 from caesura.worker import logs
 from caesura.worker.records.connection import connect
 from tests.service.conftest import serve
@@ -100,7 +100,7 @@ def test_lines_for_machines_are_json_and_lines_for_people_are_short():
     """Both say what they are about; a traceback stays in its line of JSON."""
     record = logging.LogRecord("here", logging.INFO, "file", 1, "it is %s", ("so",), None)
     record.told = {"status": 200}
-    with logs.about(request="7", segmentation=""):
+    with logs.log_context(request="7", segmentation=""):
         told = json.loads(logs.JsonLines().format(record))
         assert logs.TextLines("%(levelname)s %(message)s").format(record) == "INFO it is so request=7 status=200"
         assert logs.request_id() == "7"
@@ -159,7 +159,7 @@ def test_work_is_refused_before_redis_is_full(checkout, idle, take, tmp_path):
     with serve(checkout, tmp_path, idle.redis_url, workers=False) as other:
         kept = other.http.post("/v1/segmentations", content=take(803)).json()["id"]
         used = int(client.info("memory")["used_memory"])
-        client.config_set("maxmemory", int(used / (FULL + 0.1)))
+        client.config_set("maxmemory", int(used / (FULL_SHARE + 0.1)))
         try:
             time.sleep(1.1)  # what was looked at is believed for a second
             refused = other.http.post("/v1/segmentations", content=take(804))

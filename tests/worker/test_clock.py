@@ -7,8 +7,8 @@ import time
 
 import pytest
 
-from caesura.worker.queue.auxiliary_jobs import SWEEP_SECONDS, sweep_sometimes
-from caesura.worker.queue.orphaned_jobs import Watch
+from caesura.worker.queue.auxiliary_jobs import SWEEP_SECONDS, submit_sweep_if_due
+from caesura.worker.queue.orphaned_jobs import OrphanedJobWatch
 from caesura.worker.records import redis_keys
 from caesura.worker.retention.retention import sweep_by_clock
 
@@ -20,7 +20,7 @@ import os, time
 from pathlib import Path
 from caesura.worker.process import rq_worker as horses
 from caesura.worker import tasks
-from caesura.worker.queue.attempt import carry_out
+from caesura.worker.queue.attempt import run_attempt
 from caesura.worker.records.connection import connect
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.settings import WorkerSettings
@@ -33,7 +33,7 @@ def work(attempt):
 
 settings = WorkerSettings()
 jobs = Jobs.open(settings)
-tasks.run_analyse = lambda identifier, token: carry_out(jobs, identifier, token, work)
+tasks.run_analyse = lambda identifier, token: run_attempt(jobs, identifier, token, work)
 horses.MONITOR_SECONDS = 1
 horses.CaesuraWorker(["analyse"], connect(settings.redis_location), jobs).work(burst=True)
 """
@@ -98,11 +98,11 @@ def test_nights_and_weekends_without_a_sweep_are_no_jump(take, idle, look):
 
 def test_what_redis_was_told_while_its_clock_was_ahead_does_not_last(idle, take):
     """A lease or an hour's pause that would end in forty days is none."""
-    sweep_sometimes(idle.jobs)
-    idle.redis.expire(redis_keys.SWEPT_KEY, int(40 * DAY))
-    sweep_sometimes(idle.jobs)
-    assert idle.redis.ttl(redis_keys.SWEPT_KEY) <= SWEEP_SECONDS
-    watch, record = Watch(idle.jobs), idle.submit(idle.upload(take))
+    submit_sweep_if_due(idle.jobs)
+    idle.redis.expire(redis_keys.LAST_SWEEP_KEY, int(40 * DAY))
+    submit_sweep_if_due(idle.jobs)
+    assert idle.redis.ttl(redis_keys.LAST_SWEEP_KEY) <= SWEEP_SECONDS
+    watch, record = OrphanedJobWatch(idle.jobs), idle.submit(idle.upload(take))
     idle.records.attempts.begin(record.id, record.token)
     idle.redis.expire(redis_keys.lease_key(record.token), int(40 * DAY))
     assert [watch.look(), watch.look()] == [0, 1]

@@ -1,4 +1,4 @@
-"""`caesura serve`: one process that starts everything, and takes everything with it however it ends."""
+"""`caesura run_supervisor`: one process that starts everything, and takes everything with it however it ends."""
 
 import json
 import os
@@ -16,9 +16,9 @@ from tests.installation import SLOWLY, Installation, alive, descendants
 
 SERVE = """
 from caesura.service.settings import ServiceSettings
-from caesura.service.process.supervisor import serve
+from caesura.service.process.supervisor import run_supervisor
 import sys
-serve(ServiceSettings(port=0), on_ready=lambda address: print(address, flush=True))
+run_supervisor(ServiceSettings(port=0), on_ready=lambda address: print(address, flush=True))
 assert "numpy" not in sys.modules
 """
 
@@ -68,7 +68,7 @@ def command(pid):
 @pytest.fixture
 def start(tmp_path_factory):
     """Starts the supervisor over one data folder; what a test leaves behind is killed."""
-    folder = tmp_path_factory.mktemp("serve")
+    folder = tmp_path_factory.mktemp("run_supervisor")
     started = []
 
     def begin():

@@ -25,7 +25,7 @@ class ServerUnavailable(RuntimeError):
     """There is no server program, its folder is in use, or it did not start; the message says what to do."""
 
 
-class RedisFolder:
+class ServerFolder:
     """One folder, made where it is not there. `socket` is where its server listens."""
 
     def __init__(self, path: Path) -> None:
@@ -40,13 +40,13 @@ class RedisFolder:
             self._lock = self._locked()
         return self._lock
 
-    def give_free(self) -> None:
+    def release(self) -> None:
         """Others may take it, once the server has ended too."""
         if self._lock is not None:
             os.close(self._lock)
             self._lock = None
 
-    def kept_by(self, program: str) -> Path:
+    def written_by(self, program: str) -> Path:
         """Where the server of a program keeps its file; raises `ServerUnavailable` where a newer one wrote that.
 
         Valkey and Redis keep apart, for neither reads all of the other.

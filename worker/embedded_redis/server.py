@@ -16,8 +16,8 @@ from urllib.parse import quote
 
 import redis
 
-from caesura.worker.embedded_redis.data_folder import RedisFolder, ServerUnavailable
-from caesura.worker.parent_watch import lifeline
+from caesura.worker.embedded_redis.data_folder import ServerFolder, ServerUnavailable
+from caesura.worker.parent_watch import parent_watch
 
 START_SECONDS = 20.0
 STOP_SECONDS = 10.0
@@ -33,7 +33,7 @@ class EmbeddedRedis:
     """The server of one folder. Start it from the main thread: its life hangs on the thread that made it."""
 
     def __init__(self, folder: Path, program: str = "") -> None:
-        self._folder = RedisFolder(folder)
+        self._folder = ServerFolder(folder)
         self._program = program or find_program()
         self._log = folder / "redis.log"
         self._process: subprocess.Popen[bytes] | None = None
@@ -51,7 +51,7 @@ class EmbeddedRedis:
     def start(self) -> None:
         """Start it and wait until it answers; raises `ServerUnavailable`."""
         lock = self._folder.take()
-        places = ["--unixsocket", str(self._folder.socket), "--dir", str(self._folder.kept_by(self._program))]
+        places = ["--unixsocket", str(self._folder.socket), "--dir", str(self._folder.written_by(self._program))]
         with self._log.open("ab") as output:
             self._process = subprocess.Popen(  # noqa: S603  our own words, no shell
                 [self._program, *_words(OPTIONS), *places],
@@ -60,7 +60,7 @@ class EmbeddedRedis:
                 stderr=output,
                 start_new_session=True,
                 pass_fds=(lock,),
-                preexec_fn=lifeline(signal.SIGTERM),  # noqa: PLW1509  one prctl call between fork and exec
+                preexec_fn=parent_watch(signal.SIGTERM),  # noqa: PLW1509  one prctl call between fork and exec
             )
         self._await_answer()
 
@@ -78,7 +78,7 @@ class EmbeddedRedis:
                 self._process.kill()
                 self._process.wait()
             self._process = None
-        self._folder.give_free()
+        self._folder.release()
 
     def _await_answer(self) -> None:
         assert self._process is not None  # noqa: S101  start() has just made it
@@ -101,7 +101,7 @@ class EmbeddedRedis:
         found = DAMAGED.findall(self._log.read_text(errors="replace")[-LOG_CHARACTERS:])
         if not found:
             return ""
-        kept = self._folder.kept_by(self._program)
+        kept = self._folder.written_by(self._program)
         file = str(kept / "appendonlydir" / found[-1])
         check = ["bash", "-c", f'exec -a {kept.name}-check-aof "$0" --fix "$1"', self._program, file]
         return (

@@ -10,7 +10,7 @@ from pathlib import Path
 GRACE_SECONDS = 60
 
 
-class Allowance:
+class JobQuota:
     """The limits of this process, from now on."""
 
     def __init__(self, memory_bytes: int, processor_seconds: int) -> None:
@@ -20,7 +20,7 @@ class Allowance:
         _lower(resource.RLIMIT_CPU, spent + processor_seconds + GRACE_SECONDS)
         _lower(resource.RLIMIT_AS, self._bytes)
 
-    def grant(self, mapped_bytes: int) -> None:
+    def extend(self, mapped_bytes: int) -> None:
         """Make room for a file that is about to be mapped: its pages are the system's to drop."""
         self._bytes += mapped_bytes
         _lower(resource.RLIMIT_AS, self._bytes)

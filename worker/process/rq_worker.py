@@ -18,8 +18,8 @@ from rq.job import Job
 from rq.serializers import JSONSerializer
 
 from caesura.worker.process.job_quota import resident_bytes
-from caesura.worker.process.priority import yield_to_others
-from caesura.worker.process.work_horse import Horse
+from caesura.worker.process.priority import lower_priority
+from caesura.worker.process.work_horse import WorkHorse
 from caesura.worker.process.worker_registry import IDLE_SECONDS, sign
 from caesura.worker.queue.job_problems import KILLED, OUT_OF_MEMORY, OUT_OF_TIME
 from caesura.worker.queue.jobs import Jobs
@@ -30,7 +30,7 @@ from caesura.worker.records.schema import ExportRecord
 MONITOR_SECONDS = 5  # between signs of life while a job runs
 MAINTENANCE_SECONDS = 60
 RECONNECT_SECONDS = 5.0
-JOBS_OF_A_HORSE = 200
+JOBS_PER_WORK_HORSE = 200
 KEPT_BYTES = 256 * 2**20
 """A horse that has grown by more ends, so that its memory goes back."""
 KEPT_TASKS = frozenset({TASKS["analyse"], TASKS["cut"]})
@@ -59,7 +59,7 @@ class CaesuraWorker(Worker):
         self._jobs = jobs
         self._prepare = prepare
         self._handing_back = False
-        self._horse: Horse | None = None
+        self._horse: WorkHorse | None = None
         self._done = 0
         self._small = 0
         self._given = 0.0
@@ -69,21 +69,21 @@ class CaesuraWorker(Worker):
         """In the worker: have a job done, and the next horse stand ready before the next job comes."""
         self._jobs.records.attempts.renew(job.id)
         super().execute_job(job, queue)
-        self.saddle()
+        self.prefork()
 
-    def saddle(self) -> None:
+    def prefork(self) -> None:
         """Fork a horse, where none is ready."""
         if self._horse is None:
-            self._horse = Horse(self._prepare, self._perform)
+            self._horse = WorkHorse(self._prepare, self._perform)
 
     def fork_work_horse(self, job: Job, queue: RqQueue) -> None:
         """In the worker: give the job to the horse."""
         assert self.execution is not None  # noqa: S101  RQ has just made it
         order = json.dumps([job.id, self.execution.id, queue.name])
-        self.saddle()
+        self.prefork()
         while self._horse is not None and not self._horse.give(order):  # it was killed while it stood there
-            self._bury()
-            self.saddle()
+            self._reap()
+            self.prefork()
         assert self._horse is not None  # noqa: S101  saddled above
         self._horse_pid = self._horse.pid
         self._given = time.monotonic()
@@ -93,13 +93,13 @@ class CaesuraWorker(Worker):
         assert self._horse is not None  # noqa: S101  it got the job
         pid, status, used = self._horse.wait()
         if used is not None:  # it has ended
-            self._horse.dismiss()
+            self._horse.close()
             self._horse = None
         return pid, status, used
 
-    def _bury(self) -> None:
+    def _reap(self) -> None:
         if self._horse is not None:
-            self._horse.dismiss()
+            self._horse.close()
             os.waitpid(self._horse.pid, 0)
             self._horse = None
 
@@ -116,11 +116,11 @@ class CaesuraWorker(Worker):
         self._is_horse = True
         if name == "analyse" and not self._yields:
             self._yields = True
-            yield_to_others()
+            lower_priority()
         random.seed()
         self._done += 1
         self._small = self._small or resident_bytes()
-        done = self.perform_job(job, queue) and job.func_name in KEPT_TASKS and self._done < JOBS_OF_A_HORSE
+        done = self.perform_job(job, queue) and job.func_name in KEPT_TASKS and self._done < JOBS_PER_WORK_HORSE
         gc.collect()
         return done and resident_bytes() - self._small < KEPT_BYTES
 

@@ -17,8 +17,8 @@ from caesura.core.limits import Limits
 from caesura.core.methods import METHODS, find_method
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse, cut
-from caesura.formats.gltf.json_object import Entry
-from caesura.formats.gltf.meshopt.view import MODES, decode
+from caesura.formats.gltf.json_object import JsonObject
+from caesura.formats.gltf.meshopt.view import MODES, decode_view
 from caesura.formats.gltf.writer import Channel, GlbWriter, Primitive
 from caesura.formats.read import read_animation
 
@@ -26,35 +26,35 @@ FRAMES = 240
 RATE = 30.0
 
 
-_rehearsal: list[Analysis] = []
+_rehearsed_analyses: list[Analysis] = []
 """What `warm` has analysed, for `rehearse`."""
 
 
-def warm() -> None:
+def warm_up() -> None:
     """Analyse and cut eight seconds of a bending sheet, by every method that has code of its own, and read glTF."""
-    file = read_animation({"": moving_gltf()}, Parameters(), Limits(), lambda size: memoryview(bytearray(size)))
+    file = read_animation({"": example_gltf()}, Parameters(), Limits(), lambda size: memoryview(bytearray(size)))
     file.vertices(0, file.frames)
     for mode in MODES:
         with suppress(InvalidModel):  # what is in it does not matter: its loops are compiled to find that out
-            decode(Entry({"mode": mode, "count": 3, "byteStride": 4}, ""), memoryview(bytes(40)))
+            decode_view(JsonObject({"mode": mode, "count": 3, "byteStride": 4}, ""), memoryview(bytes(40)))
     for method in METHODS:
         find_method(method)  # before the limit, which holds for what is loaded
-    animation = sheet()
+    animation = example_sheet()
     parameters = Parameters(motions=2)
     with threadpool_limits(1):
         analysis = analyse(animation, parameters, threads=1)
-        _rehearsal.append(analysis)
+        _rehearsed_analyses.append(analysis)
         for method in filter("haca".__ne__, METHODS):  # its loops are those of aca, run thousands of times
             cut(analysis, parameters.model_copy(update={"method": method}))
 
 
-def rehearse() -> None:
+def rehearse_cuts() -> None:
     """Cut what `warm` has analysed: after a fork the first touch of each page that was shared takes time."""
-    for analysis in _rehearsal:
+    for analysis in _rehearsed_analyses:
         cut(replace(analysis), Parameters(motions=2)).to_json()  # a copy, which knows no cut yet
 
 
-def moving_gltf() -> bytes:
+def example_gltf() -> bytes:
     """A triangle that turns, moves and has a morph target."""
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
     times = np.array([0, 1], np.float32)
@@ -68,7 +68,7 @@ def moving_gltf() -> bytes:
     return writer.to_bytes()
 
 
-def sheet(side: int = 6) -> Animation:
+def example_sheet(side: int = 6) -> Animation:
     """A square sheet that bends, stops, and stretches."""
     row, column = np.divmod(np.arange(side * side), side)
     flat = np.stack([column, row, np.zeros_like(row)], axis=1).astype(np.float32)

@@ -12,20 +12,20 @@ import sys
 from collections.abc import Callable
 from resource import struct_rusage
 
-from caesura.worker.parent_watch import die_with
+from caesura.worker.parent_watch import end_with_parent
 
 PR_SET_NAME = 15
 READY, WORKING = "horse: ready", "horse: working"
 """What `ps` and `top` call it; at most 15 letters."""
 
-Work = Callable[[str], bool]
+WorkFunction = Callable[[str], bool]
 """Does the job that an order names, in the fork; whether the fork may do another."""
 
 
-class Horse:
+class WorkHorse:
     """The worker's hand on one fork. It ends when this is let go: `dismiss`, or the end of the worker."""
 
-    def __init__(self, prepare: Callable[[], None], work: Work) -> None:
+    def __init__(self, prepare: Callable[[], None], work: WorkFunction) -> None:
         orders, self._orders = os.pipe()
         self._reports, reports = os.pipe()
         parent = os.getpid()
@@ -55,16 +55,16 @@ class Horse:
         pid, status, used = os.wait4(self.pid, 0)
         return pid, status, used
 
-    def dismiss(self) -> None:
+    def close(self) -> None:
         """It gets no more orders, and ends."""
         os.close(self._orders)
         os.close(self._reports)
 
 
-def _serve(parent: int, orders: int, reports: int, prepare: Callable[[], None], work: Work) -> None:
+def _serve(parent: int, orders: int, reports: int, prepare: Callable[[], None], work: WorkFunction) -> None:
     """In the fork: one job after the other, as long as it may."""
     os.setpgrp()  # what it starts is killed with it
-    die_with(parent)
+    end_with_parent(parent)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     _call_it(READY)

@@ -10,7 +10,7 @@ from caesura.worker.store.blobs import Blobs
 
 
 @dataclass(frozen=True)
-class Place:
+class WorkerContext:
     """Settings, queue and records, store."""
 
     settings: WorkerSettings
@@ -19,13 +19,13 @@ class Place:
 
 
 @cache
-def place() -> Place:
+def worker_context() -> WorkerContext:
     """The place of this process."""
     settings = WorkerSettings()
-    return Place(settings, Jobs.open(settings), Blobs.open(settings.store_location, settings.scratch_dir))
+    return WorkerContext(settings, Jobs.open(settings), Blobs.open(settings.store_location, settings.scratch_dir))
 
 
 @lru_cache(maxsize=1)
 def stored_analysis(key: str) -> Analysis:
     """An analysis of the store; the last one stays, with what its cuts have in common: a slider asks again."""
-    return Analysis.from_bytes(place().blobs.read(key))
+    return Analysis.from_bytes(worker_context().blobs.read(key))

@@ -9,25 +9,27 @@ from contextlib import suppress
 
 from redis.exceptions import RedisError
 
-from caesura.worker.parent_watch import die_with, parent_is_gone
+from caesura.worker.parent_watch import end_with_parent, parent_is_gone
 
 log = logging.getLogger(__name__)
 
 LOOK_SECONDS = 0.1
-TEND_SECONDS = 5.0
+MAINTENANCE_SECONDS = 5.0
 RESTART_SECONDS = 1.0
 KILL_SECONDS = 5.0
 
-Work = Callable[[list[str]], None]
+WorkFunction = Callable[[list[str]], None]
 
 
-class Pool:
+class WorkerPool:
     """One child per list of queues, each running `work(queues)`; `tend` is called every few seconds.
 
     The first SIGTERM or SIGINT lets running jobs end within `stop_seconds`; then they are handed back.
     """
 
-    def __init__(self, groups: list[list[str]], work: Work, tend: Callable[[], None], stop_seconds: float) -> None:
+    def __init__(
+        self, groups: list[list[str]], work: WorkFunction, tend: Callable[[], None], stop_seconds: float
+    ) -> None:
         self._groups = groups
         self._work = work
         self._tend = tend
@@ -46,9 +48,9 @@ class Pool:
         looked = time.monotonic()
         while not self._stopping and not parent_is_gone(parent):
             time.sleep(LOOK_SECONDS)
-            self._bury()
-            self._revive()
-            if time.monotonic() - looked >= TEND_SECONDS:
+            self._reap()
+            self._restart()
+            if time.monotonic() - looked >= MAINTENANCE_SECONDS:
                 looked = time.monotonic()
                 with suppress(RedisError, OSError):  # out of reach, or the disk is full: the workers meet it too
                     self._tend()
@@ -61,14 +63,14 @@ class Pool:
             self._children[child] = queues
             return
         try:
-            die_with(parent)
+            end_with_parent(parent)
             signal.signal(signal.SIGTERM, signal.SIG_DFL)
             signal.signal(signal.SIGINT, signal.SIG_DFL)
             self._work(queues)
         finally:
             os._exit(0)
 
-    def _bury(self) -> None:
+    def _reap(self) -> None:
         while self._children:
             child, status = os.waitpid(-1, os.WNOHANG)
             if child == 0:
@@ -78,7 +80,7 @@ class Pool:
                 log.warning("worker %d (%s) ended with %d; starting another", child, ",".join(queues), status)
                 self._restarts.append((time.monotonic() + RESTART_SECONDS, queues))
 
-    def _revive(self) -> None:
+    def _restart(self) -> None:
         due = [restart for restart in self._restarts if restart[0] <= time.monotonic()]
         for restart in due:
             self._restarts.remove(restart)
@@ -99,4 +101,4 @@ class Pool:
             deadline = time.monotonic() + seconds
             while self._children and time.monotonic() < deadline:
                 time.sleep(LOOK_SECONDS / 2)
-                self._bury()
+                self._reap()

@@ -19,7 +19,7 @@ from caesura.worker.records.connection import names
 from caesura.worker.records.schema import Queue
 
 IDLE_SECONDS = 30  # a worker without a job gives a sign of life twice in so long
-FAR_SECONDS = 10**9
+REMOTE_SILENCE_SECONDS = 10**9
 
 
 def sign(worker: Worker, pipe: "Redis | Pipeline") -> None:
@@ -33,7 +33,7 @@ def unserved(client: Redis) -> list[Queue]:
     return [name for name in QUEUES if not _hosts(client, worker_registration.WORKERS_BY_QUEUE_KEY % name)]
 
 
-def alive_here(client: Redis) -> bool:
+def has_live_worker_here(client: Redis) -> bool:
     """Whether a worker of this machine gave a sign of life lately."""
     return socket.gethostname() in _hosts(client, worker_registration.REDIS_WORKER_KEYS)
 
@@ -44,11 +44,11 @@ def _hosts(client: Redis, registry: str) -> list[str]:
     return names(host for host in client.mget(map(redis_keys.worker_key, workers)) if host) if workers else []
 
 
-def forget_workers(client: Redis) -> None:
+def remove_dead_workers(client: Redis) -> None:
     """Sweep what dead workers left in RQ's registries. Only where no worker can be alive: before the first starts."""
     for name in QUEUES:
         queue = rq_queue(name, client)
-        queue.started_job_registry.cleanup(timestamp=time.time() + FAR_SECONDS)
+        queue.started_job_registry.cleanup(timestamp=time.time() + REMOTE_SILENCE_SECONDS)
         client.delete(queue.intermediate_queue_key)
     for worker in Worker.all(connection=client, serializer=JSONSerializer):
         worker.register_death()

@@ -16,7 +16,7 @@ from caesura.worker.queue.job_problems import (
     UNAVAILABLE,
 )
 from caesura.worker.queue.jobs import Jobs
-from caesura.worker.queue.progress_reporter import Teller
+from caesura.worker.queue.progress_reporter import ProgressReporter
 from caesura.worker.queue.queues import TimeLimit
 from caesura.worker.records import counters
 from caesura.worker.records.schema import SegmentationRecord
@@ -40,7 +40,7 @@ class Attempt:
         self._stage_began = time.monotonic()
         self._stage = ""
         self._fraction = 0.0
-        self._teller = Teller(self._write)
+        self._teller = ProgressReporter(self._write)
 
     def progress(self, stage: str, fraction: float) -> None:
         """Have it told where it is; raises `Superseded` where an earlier word found that nobody wants it any more.
@@ -80,7 +80,7 @@ class Attempt:
         self.jobs.again(self.record.id, self.record.token, problem, pause=True)
 
 
-def carry_out(jobs: Jobs, identifier: str, token: str, work: Callable[[Attempt], None]) -> None:
+def run_attempt(jobs: Jobs, identifier: str, token: str, work: Callable[[Attempt], None]) -> None:
     """Run one attempt to its end, whichever that is. What a person can mend ends the job normally.
 
     The store or the queue out of reach: tried again, a bounded number of times. Anything else is a bug of ours: the
@@ -91,9 +91,9 @@ def carry_out(jobs: Jobs, identifier: str, token: str, work: Callable[[Attempt],
         log.info("%s: this attempt is no longer wanted", identifier)
         return
     attempt = Attempt(jobs, record)
-    with logs.about(request=record.request, segmentation=identifier):
+    with logs.log_context(request=record.request, segmentation=identifier):
         try:
-            _carried_out(attempt, work)
+            _run_work(attempt, work)
         except TimeLimit:  # also where another end was being written: what is written already stays
             attempt.fail(OUT_OF_TIME)
         finally:
@@ -102,7 +102,7 @@ def carry_out(jobs: Jobs, identifier: str, token: str, work: Callable[[Attempt],
         log.info("attempt %d ended", record.attempt, extra={"told": _milliseconds(attempt.stage_seconds)})
 
 
-def _carried_out(attempt: Attempt, work: Callable[[Attempt], None]) -> None:
+def _run_work(attempt: Attempt, work: Callable[[Attempt], None]) -> None:
     try:
         work(attempt)
     except Superseded:

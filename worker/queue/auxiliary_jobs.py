@@ -15,7 +15,7 @@ DELETED = {"kind": "request", "code": "not-found", "detail": "The segmentation w
 
 
 def submit_export(jobs: Jobs, identifier: str, form: str) -> ExportRecord:
-    """Have a file made of a result that is done, unless it is there or being made; see `Exports.one`."""
+    """Have a file made of a result that is done, unless it is there or being made; see `ResultFiles.one`."""
     key = redis_keys.export_key(identifier, form)
     with jobs.redis.pipeline() as pipe:
         while True:
@@ -57,11 +57,11 @@ def submit_alternatives(jobs: Jobs, identifier: str) -> None:
         pipe.execute()
 
 
-def sweep_sometimes(jobs: Jobs) -> None:
+def submit_sweep_if_due(jobs: Jobs) -> None:
     """Queue a look for what is kept too long, where nobody has within the last hour. Call it at any time."""
-    if jobs.redis.set(redis_keys.SWEPT_KEY, b"1", nx=True, ex=SWEEP_SECONDS):
+    if jobs.redis.set(redis_keys.LAST_SWEEP_KEY, b"1", nx=True, ex=SWEEP_SECONDS):
         with jobs.redis.pipeline() as pipe:
             jobs.queues.put("cut", "sweep", [], content_ids.token(), SWEEP_SECONDS, pipe)
             pipe.execute()
-    elif jobs.redis.ttl(redis_keys.SWEPT_KEY) > SWEEP_SECONDS:  # Redis's clock was ahead when it was set
-        jobs.redis.expire(redis_keys.SWEPT_KEY, SWEEP_SECONDS)
+    elif jobs.redis.ttl(redis_keys.LAST_SWEEP_KEY) > SWEEP_SECONDS:  # Redis's clock was ahead when it was set
+        jobs.redis.expire(redis_keys.LAST_SWEEP_KEY, SWEEP_SECONDS)

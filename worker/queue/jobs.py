@@ -22,7 +22,7 @@ from redis import Redis
 from redis.client import Pipeline
 
 from caesura.worker.queue.queues import Queues
-from caesura.worker.queue.retry_delays import pause_seconds
+from caesura.worker.queue.retry_delays import retry_delay_seconds
 from caesura.worker.records import Records, content_ids, counters, redis_keys
 from caesura.worker.records.connection import connect
 from caesura.worker.records.schema import Queue, SegmentationRecord
@@ -105,7 +105,7 @@ class Jobs:
             if record.attempt >= self._attempts:
                 return record.with_(status="failed", problem=problem)
             fresh = self._attempt(record, attempt=record.attempt + 1)
-            return fresh.with_(due=time.time() + pause_seconds(record.attempt)) if pause else fresh
+            return fresh.with_(due=time.time() + retry_delay_seconds(record.attempt)) if pause else fresh
 
         def also(pipe: Pipeline, after: SegmentationRecord) -> None:
             self._enqueue(pipe, after)
@@ -148,7 +148,7 @@ class Jobs:
         if record.status == "queued" and not record.due:
             args = [record.id, record.token]
             self.queues.put(record.queue, record.queue, args, record.token, self.job_seconds, pipe)
-            pipe.zadd(redis_keys.USED_KEY, {record.animation: time.time()}, xx=True)
+            pipe.zadd(redis_keys.LAST_USED_KEY, {record.animation: time.time()}, xx=True)
 
     def _kept(self, record: SegmentationRecord) -> SegmentationRecord:
         return self.records.segmentations.one(record.id) or self.submit(record)

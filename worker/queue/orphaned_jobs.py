@@ -8,7 +8,7 @@ from caesura.worker.queue.retry_delays import LONGEST_PAUSE_SECONDS
 from caesura.worker.records.schema import SegmentationRecord
 
 
-class Watch:
+class OrphanedJobWatch:
     """Looks every few seconds, and remembers what it missed. Any number of processes may watch."""
 
     def __init__(self, jobs: Jobs) -> None:
@@ -24,13 +24,13 @@ class Watch:
         live = self._jobs.records.segmentations.live()
         for paused in (record for record in live if _pause_is_over(record)):
             self._jobs.resume(paused.id, paused.token)
-        missing = {r.token: r.id for r in live if not r.due and not _attended(self._jobs, r)}
+        missing = {r.token: r.id for r in live if not r.due and not _has_worker(self._jobs, r)}
         lost = missing.keys() & self._missed
         self._missed = missing.keys() - lost
         return sum(self._jobs.again(missing[token], token, LOST) is not None for token in lost)
 
 
-def recover(jobs: Jobs) -> int:
+def recover_orphaned_jobs(jobs: Jobs) -> int:
     """Try again all that an embedded server held when it ended, and answer how many that are.
 
     No worker can be alive at its start: whatever was running is lost, and every pause is over.
@@ -38,7 +38,7 @@ def recover(jobs: Jobs) -> int:
     live = jobs.records.segmentations.live()
     for paused in (record for record in live if record.due):
         jobs.resume(paused.id, paused.token)
-    lost = [r for r in live if not r.due and (r.status == "running" or not _attended(jobs, r))]
+    lost = [r for r in live if not r.due and (r.status == "running" or not _has_worker(jobs, r))]
     return sum(jobs.again(record.id, record.token, LOST) is not None for record in lost)
 
 
@@ -47,7 +47,7 @@ def _pause_is_over(record: SegmentationRecord) -> bool:
     return bool(record.due) and not 0 < record.due - time.time() <= LONGEST_PAUSE_SECONDS
 
 
-def _attended(jobs: Jobs, record: SegmentationRecord) -> bool:
+def _has_worker(jobs: Jobs, record: SegmentationRecord) -> bool:
     """Whether it has a worker that lives, or a place in its queue."""
     if record.status == "running":
         return jobs.records.attempts.leased(record.token)

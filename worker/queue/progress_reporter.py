@@ -3,19 +3,19 @@
 import threading
 from collections.abc import Callable
 
-TELL_SECONDS = 0.2
+REPORT_SECONDS = 0.2
 
-Write = Callable[[str, float], bool]
+WriteProgress = Callable[[str, float], bool]
 """Writes a stage and its fraction; whether anybody still wants to know."""
 
 
-class Teller:
+class ProgressReporter:
     """A thread that writes the newest word, the first at once and then at most five times a second.
 
     Nothing is lost by that: a stage that is over before its word was due has a later one to take its place. `stop` it.
     """
 
-    def __init__(self, write: Write) -> None:
+    def __init__(self, write: WriteProgress) -> None:
         self._write = write
         self._word: tuple[str, float] | None = None
         self._said = threading.Condition()
@@ -52,7 +52,7 @@ class Teller:
                 self._wanted = False
                 return
             with self._said:
-                self._said.wait_for(lambda: self._over, TELL_SECONDS)
+                self._said.wait_for(lambda: self._over, REPORT_SECONDS)
 
     def _next(self) -> tuple[str, float] | None:
         """The newest word that was not told; None once there will be none."""

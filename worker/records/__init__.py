@@ -12,7 +12,7 @@ import redis
 from caesura.worker.records.analyses import Analyses
 from caesura.worker.records.animations import Animations
 from caesura.worker.records.attempts import Attempts
-from caesura.worker.records.result_files import Exports
+from caesura.worker.records.result_files import ResultFiles
 from caesura.worker.records.segmentations import Segmentations
 
 
@@ -25,4 +25,4 @@ class Records:
         self.analyses = Analyses(client)
         self.segmentations = Segmentations(client)
         self.attempts = Attempts(client, self.segmentations)
-        self.exports = Exports(client)
+        self.exports = ResultFiles(client)

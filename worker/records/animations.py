@@ -39,7 +39,7 @@ class Animations:
                 pipe.set(key, record.model_dump_json())
                 pipe.set(redis_keys.takes_key(record.id), TAKES.dump_json(takes))
                 pipe.zadd(redis_keys.animations_key(record.owner), {record.id: record.created})
-                pipe.zadd(redis_keys.USED_KEY, {record.id: record.created})
+                pipe.zadd(redis_keys.LAST_USED_KEY, {record.id: record.created})
                 try:
                     pipe.execute()
                 except redis.WatchError:
@@ -55,12 +55,13 @@ class Animations:
     def uses(self) -> dict[str, float]:
         """When each animation was used last: uploaded, or asked to be cut."""
         return {
-            name: score for (name,), score in ((names([n]), s) for n, s in self._redis.zscan_iter(redis_keys.USED_KEY))
+            name: score
+            for (name,), score in ((names([n]), s) for n, s in self._redis.zscan_iter(redis_keys.LAST_USED_KEY))
         }
 
     def touch(self, identifier: str) -> None:
         """It is used now, and so kept from now on."""
-        self._redis.zadd(redis_keys.USED_KEY, {identifier: time.time()}, xx=True)
+        self._redis.zadd(redis_keys.LAST_USED_KEY, {identifier: time.time()}, xx=True)
 
     def delete(self, record: AnimationRecord) -> bool:
         """Forget an animation; its blobs, analyses and segmentations are the caller's to delete before.
@@ -74,7 +75,7 @@ class Animations:
             pipe.multi()
             pipe.delete(redis_keys.animation_key(record.id), redis_keys.takes_key(record.id))
             pipe.zrem(redis_keys.animations_key(record.owner), record.id)
-            pipe.zrem(redis_keys.USED_KEY, record.id)
+            pipe.zrem(redis_keys.LAST_USED_KEY, record.id)
             pipe.set(redis_keys.DELETED_KEY, b"1")
             try:
                 pipe.execute()

@@ -8,10 +8,10 @@ from redis.asyncio import BlockingConnectionPool, Redis
 from caesura.worker.records import redis_keys
 from caesura.worker.records.connection import names
 from caesura.worker.records.schema import TAKES, AnimationRecord, ExportRecord, SegmentationRecord, TakeSummary
-from caesura.worker.records.subscription import Listener, Words
+from caesura.worker.records.subscription import ChannelListener, Messages
 
 REREAD_SECONDS = 3.0  # a message may be missed where a connection breaks
-STILL_LIVE: Words = frozenset({b"queued", b"running"})
+LIVE_STATES: Messages = frozenset({b"queued", b"running"})
 
 
 class AsyncRecords:
@@ -19,7 +19,7 @@ class AsyncRecords:
 
     def __init__(self, url: str) -> None:
         self.redis: Redis = Redis.from_pool(BlockingConnectionPool.from_url(url, health_check_interval=30))
-        self._listener = Listener(self.redis)
+        self._listener = ChannelListener(self.redis)
 
     async def close(self) -> None:
         """Give the connections back."""
@@ -72,7 +72,7 @@ class AsyncRecords:
         """A file made of a result, or None where none was asked for."""
         return ExportRecord.read(await self.redis.get(redis_keys.export_key(segmentation, form)))
 
-    async def changes(self, identifier: str, deaf: Words = frozenset()) -> AsyncGenerator[SegmentationRecord | None]:
+    async def changes(self, identifier: str, deaf: Messages = frozenset()) -> AsyncGenerator[SegmentationRecord | None]:
         """The record now, and again after every change and every 3 s; None once it is deleted.
 
         Listens before it reads, so that no change is missed. Words that it is `deaf` to are changes that do not
@@ -87,7 +87,7 @@ class AsyncRecords:
 
     async def ended(self, identifier: str) -> SegmentationRecord | None:
         """The record as soon as it is no longer live; None once it is deleted. Waits for ever."""
-        async with aclosing(self.changes(identifier, STILL_LIVE)) as changes:
+        async with aclosing(self.changes(identifier, LIVE_STATES)) as changes:
             async for record in changes:
                 if record is None or not record.live:
                     return record

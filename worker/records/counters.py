@@ -23,14 +23,14 @@ def count_change(pipe: Pipeline, before: SegmentationRecord | None, after: Segme
     if before is not None and (before.status, before.token) == (after.status, after.token):
         return
     code = str((after.problem or {}).get("code", ""))
-    pipe.hincrby(redis_keys.TALLY_KEY, field("segmentations", status=after.status, code=code), 1)
+    pipe.hincrby(redis_keys.COUNTERS_KEY, counter_field("segmentations", status=after.status, code=code), 1)
     if before is not None and after.status == "running":
-        observe(pipe, "waited", max(after.updated - before.updated, 0.0), queue=after.queue)
+        count_observation(pipe, "waited", max(after.updated - before.updated, 0.0), queue=after.queue)
 
 
 def count_lost(pipe: Pipeline, code: str) -> None:
     """An attempt that was lost, and why."""
-    pipe.hincrby(redis_keys.TALLY_KEY, field("lost", code=code), 1)
+    pipe.hincrby(redis_keys.COUNTERS_KEY, counter_field("lost", code=code), 1)
 
 
 def count_stages(client: Redis, seconds: Mapping[str, float]) -> None:
@@ -39,23 +39,23 @@ def count_stages(client: Redis, seconds: Mapping[str, float]) -> None:
         return
     with client.pipeline(transaction=False) as pipe:
         for stage, took in seconds.items():
-            observe(pipe, "stage", took, stage=stage)
+            count_observation(pipe, "stage", took, stage=stage)
         pipe.execute()
 
 
-def observe(pipe: Pipeline, name: str, seconds: float, **labels: str) -> None:
+def count_observation(pipe: Pipeline, name: str, seconds: float, **labels: str) -> None:
     """One duration: into its bucket, and to the sum."""
     bucket = next(end for end in BUCKETS if seconds <= end)
-    pipe.hincrby(redis_keys.TALLY_KEY, field(f"{name}_bucket", **labels, le=f"{bucket:g}"), 1)
-    pipe.hincrbyfloat(redis_keys.TALLY_KEY, field(f"{name}_sum", **labels), seconds)
+    pipe.hincrby(redis_keys.COUNTERS_KEY, counter_field(f"{name}_bucket", **labels, le=f"{bucket:g}"), 1)
+    pipe.hincrbyfloat(redis_keys.COUNTERS_KEY, counter_field(f"{name}_sum", **labels), seconds)
 
 
-def field(name: str, **labels: str) -> str:
+def counter_field(name: str, **labels: str) -> str:
     """A name and its labels as one field."""
     return "|".join([name, *(f"{label}={value}" for label, value in labels.items())])
 
 
-def read(stored: Mapping[Any, Any]) -> dict[str, list[tuple[dict[str, str], float]]]:
+def read_counters(stored: Mapping[Any, Any]) -> dict[str, list[tuple[dict[str, str], float]]]:
     """The hash as Redis answers it: the values of each name, with their labels."""
     told: dict[str, list[tuple[dict[str, str], float]]] = {}
     for kept, value in stored.items():

@@ -38,14 +38,14 @@
 
 from typing import Literal
 
-LIVE_KEY = "caesura:live"
-USED_KEY = "caesura:used"
-SWEPT_KEY = "caesura:swept"
+LIVE_SEGMENTATIONS_KEY = "caesura:live"
+LAST_USED_KEY = "caesura:used"
+LAST_SWEEP_KEY = "caesura:swept"
 CLOCK_KEY = "caesura:clock"
 DELETED_KEY = "caesura:deleted"
 LAYOUT_KEY = "caesura:layout"
-TALLY_KEY = "caesura:tally"
-DOUBTED_KEY = "caesura:doubted"
+COUNTERS_KEY = "caesura:tally"
+ORPHAN_CANDIDATES_KEY = "caesura:doubted"
 STORE_KEY = "caesura:store"
 API_KEYS_KEY = "caesura:keys"
 

@@ -7,7 +7,7 @@ from caesura.worker.records.connection import names
 from caesura.worker.records.schema import ExportRecord
 
 
-class Exports:
+class ResultFiles:
     """The files made of the results of one Redis."""
 
     def __init__(self, client: redis.Redis) -> None:

@@ -12,7 +12,7 @@ from caesura.worker.records.connection import names
 from caesura.worker.records.schema import SegmentationRecord
 
 Change = Callable[[SegmentationRecord], SegmentationRecord | None]
-Also = Callable[[Pipeline, SegmentationRecord], None]
+AlsoWrite = Callable[[Pipeline, SegmentationRecord], None]
 
 
 class AnimationDeleted(CaesuraError):
@@ -38,7 +38,7 @@ class Segmentations:
 
     def live(self) -> list[SegmentationRecord]:
         """All segmentations that are queued or running."""
-        ids = sorted(names(self._redis.smembers(redis_keys.LIVE_KEY)))
+        ids = sorted(names(self._redis.smembers(redis_keys.LIVE_SEGMENTATIONS_KEY)))
         return [record for record in map(self.one, ids) if record is not None and record.live]
 
     def result(self, identifier: str) -> tuple[bytes | None, bytes | None, bytes | None]:
@@ -50,7 +50,7 @@ class Segmentations:
             return document, energy, labels
 
     def change(
-        self, identifier: str, change: Change, also: Also | None = None, new: SegmentationRecord | None = None
+        self, identifier: str, change: Change, also: AlsoWrite | None = None, new: SegmentationRecord | None = None
     ) -> SegmentationRecord | None:
         """Replace the record by `change(record)`, together with what `also` puts into the same MULTI.
 
@@ -95,7 +95,7 @@ class Segmentations:
             pipe.delete(key, *parts, redis_keys.revisions_key(record.id), redis_keys.revised_key(record.id))
             pipe.delete(redis_keys.alternatives_key(record.id))
             pipe.zrem(redis_keys.segmentations_key(record.animation), record.id)
-            pipe.srem(redis_keys.LIVE_KEY, record.id)
+            pipe.srem(redis_keys.LIVE_SEGMENTATIONS_KEY, record.id)
             pipe.set(redis_keys.DELETED_KEY, b"1")
             pipe.publish(redis_keys.channel(record.id), b"deleted")
             try:
@@ -108,7 +108,7 @@ class Segmentations:
 def _write(pipe: Pipeline, record: SegmentationRecord) -> None:
     pipe.set(redis_keys.segmentation_key(record.id), record.model_dump_json())
     pipe.zadd(redis_keys.segmentations_key(record.animation), {record.id: record.created})
-    (pipe.sadd if record.live else pipe.srem)(redis_keys.LIVE_KEY, record.id)
+    (pipe.sadd if record.live else pipe.srem)(redis_keys.LIVE_SEGMENTATIONS_KEY, record.id)
     pipe.publish(redis_keys.channel(record.id), record.status)
 
 

@@ -17,13 +17,13 @@ LISTEN_SECONDS = 3.0
 NOWHERE = redis_keys.channel("")
 """Always listened to, so that the connection is never one for other calls; nobody speaks there."""
 
-Words = frozenset[bytes]
+Messages = frozenset[bytes]
 
 
-class Ear:
+class Subscription:
     """One who waits on a channel. It is woken by every word but those that it is deaf to."""
 
-    def __init__(self, deaf: Words) -> None:
+    def __init__(self, deaf: Messages) -> None:
         self._deaf = deaf
         self._woken = asyncio.Event()
 
@@ -40,21 +40,21 @@ class Ear:
         self._woken.clear()
 
 
-class Listener:
+class ChannelListener:
     """The ears of one process. Where the connection breaks all are woken, and whoever asks next makes a new one."""
 
     def __init__(self, client: redis.asyncio.Redis) -> None:
         self._redis = client
-        self._ears: dict[str, set[Ear]] = {}
+        self._ears: dict[str, set[Subscription]] = {}
         self._confirmed: dict[str, asyncio.Event] = {}
         self._lock = asyncio.Lock()
         self._pubsub: PubSub | None = None
         self._reading: asyncio.Task[None] | None = None
 
     @asynccontextmanager
-    async def hearing(self, channel: str, deaf: Words = frozenset()) -> AsyncIterator[Ear]:
+    async def hearing(self, channel: str, deaf: Messages = frozenset()) -> AsyncIterator[Subscription]:
         """An ear on a channel, once the server has said that it is listened to."""
-        ear = Ear(deaf)
+        ear = Subscription(deaf)
         self._ears.setdefault(channel, set()).add(ear)
         try:
             await self.attend(channel)

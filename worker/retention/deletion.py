@@ -19,21 +19,21 @@ WRITES_SECONDS = 3.0
 """Redis looks every second whether its disk has room again."""
 
 
-def forget_segmentation(jobs: Jobs, blobs: Blobs, identifier: str) -> None:
+def delete_segmentation(jobs: Jobs, blobs: Blobs, identifier: str) -> None:
     """Cancel a segmentation where it is live, and delete it with every file made of it; the analysis stays."""
     _make_room(jobs, blobs, _exported(jobs.records, identifier))
-    _forget_exports(jobs, blobs, identifier)
+    _delete_all_result_files(jobs, blobs, identifier)
     jobs.delete(identifier)
-    _forget_exports(jobs, blobs, identifier)  # one that was kept in this moment; from now on none is
+    _delete_all_result_files(jobs, blobs, identifier)  # one that was kept in this moment; from now on none is
 
 
-def forget_animation(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
+def delete_animation(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
     """Delete an upload and everything derived from it, also what is asked for while it is being deleted."""
     _make_room(jobs, blobs, blobs_of(jobs.records, animation))
     while True:
         for segmentation in jobs.records.segmentations.of(animation.id):
-            forget_segmentation(jobs, blobs, segmentation.id)
-        forget_files(jobs, blobs, animation)
+            delete_segmentation(jobs, blobs, segmentation.id)
+        delete_result_files(jobs, blobs, animation)
         if jobs.records.animations.delete(animation):
             return
 
@@ -60,12 +60,12 @@ def _exported(records: Records, identifier: str) -> Iterator[str]:
     yield from (one.key for one in made if one is not None and one.key is not None)
 
 
-def forget_files(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
+def delete_result_files(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
     """Delete an upload's files, what was computed from them, and copies of them in clips; results stay."""
     for segmentation in jobs.records.segmentations.of(animation.id):
         for form in jobs.records.exports.forms(segmentation.id):
             if form.partition("?")[0] in OF_UPLOAD:
-                forget_export(jobs.records, blobs, segmentation.id, form)
+                delete_result_file(jobs.records, blobs, segmentation.id, form)
     for digest, analysis in jobs.records.analyses.all(animation.id).items():
         for key in analysis.blobs():
             blobs.delete(key)
@@ -74,12 +74,12 @@ def forget_files(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
         blobs.delete(part.key)
 
 
-def _forget_exports(jobs: Jobs, blobs: Blobs, identifier: str) -> None:
+def _delete_all_result_files(jobs: Jobs, blobs: Blobs, identifier: str) -> None:
     for form in jobs.records.exports.forms(identifier):
-        forget_export(jobs.records, blobs, identifier, form)
+        delete_result_file(jobs.records, blobs, identifier, form)
 
 
-def forget_export(records: Records, blobs: Blobs, identifier: str, form: str) -> None:
+def delete_result_file(records: Records, blobs: Blobs, identifier: str, form: str) -> None:
     """Delete one file made of a result; asked for again, it is made again."""
     made = records.exports.one(identifier, form)
     if made is not None and made.key is not None:
@@ -87,7 +87,7 @@ def forget_export(records: Records, blobs: Blobs, identifier: str, form: str) ->
     records.exports.delete(identifier, form)
 
 
-def forget_oldest_exports(records: Records, blobs: Blobs, identifier: str, kept: int) -> None:
+def delete_oldest_result_files(records: Records, blobs: Blobs, identifier: str, kept: int) -> None:
     """Delete all but the newest so many files made of a result: each may be as large as what was uploaded.
 
     So are forgotten answers that there is none, which are small but may be any number, and forms whose job was lost.
@@ -96,4 +96,4 @@ def forget_oldest_exports(records: Records, blobs: Blobs, identifier: str, kept:
     lost = [form for form, one in made.items() if one is None]
     over = sorted((one.created, form) for form, one in made.items() if one is not None and (one.key or one.problem))
     for form in [*lost, *(form for _, form in over[:-kept])]:
-        forget_export(records, blobs, identifier, form)
+        delete_result_file(records, blobs, identifier, form)

@@ -13,12 +13,12 @@ from caesura.worker.retention.deletion import blobs_of
 from caesura.worker.store.blobs import Blobs
 
 
-def forget_orphans(records: Records, blobs: Blobs, doubt_seconds: float) -> dict[str, int]:
+def delete_orphaned_blobs(records: Records, blobs: Blobs, doubt_seconds: float) -> dict[str, int]:
     """Delete what was in doubt for `doubt_seconds`, and answer how many bytes each kind of blob takes now."""
     now = time.time()
     stored = dict(blobs.all())  # before the pointers: what is kept meanwhile is not even seen
     pointed = set(_pointers(records))
-    kept = records.redis.hgetall(redis_keys.DOUBTED_KEY)
+    kept = records.redis.hgetall(redis_keys.ORPHAN_CANDIDATES_KEY)
     doubted = {key: float(since) for key, since in zip(names(kept), kept.values(), strict=True)}
     doubtful = {key: min(doubted.get(key, now), now) for key in stored if key not in pointed}
     orphans = [key for key, since in doubtful.items() if key in doubted and since <= now - doubt_seconds]
@@ -43,9 +43,9 @@ def _pointers(records: Records) -> Iterator[str]:
 def _note(records: Records, doubtful: dict[str, float], sizes: dict[str, int]) -> None:
     """Keep what is in doubt for the next look, and the sizes for whoever asks."""
     with records.redis.pipeline() as pipe:
-        pipe.delete(redis_keys.DOUBTED_KEY, redis_keys.STORE_KEY)
+        pipe.delete(redis_keys.ORPHAN_CANDIDATES_KEY, redis_keys.STORE_KEY)
         if doubtful:
-            pipe.hset(redis_keys.DOUBTED_KEY, mapping={key: repr(since) for key, since in doubtful.items()})
+            pipe.hset(redis_keys.ORPHAN_CANDIDATES_KEY, mapping={key: repr(since) for key, since in doubtful.items()})
         if sizes:
             pipe.hset(redis_keys.STORE_KEY, mapping={kind: str(size) for kind, size in sizes.items()})
         pipe.execute()

@@ -12,8 +12,8 @@ from caesura.worker.queue.auxiliary_jobs import SWEEP_SECONDS
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.records import redis_keys
 from caesura.worker.records.schema import AnimationRecord
-from caesura.worker.retention.deletion import forget_files, forget_segmentation
-from caesura.worker.retention.orphaned_blobs import forget_orphans
+from caesura.worker.retention.deletion import delete_result_files, delete_segmentation
+from caesura.worker.retention.orphaned_blobs import delete_orphaned_blobs
 from caesura.worker.store.blobs import Blobs
 
 log = logging.getLogger(__name__)
@@ -27,7 +27,7 @@ def sweep_by_clock(jobs: Jobs, blobs: Blobs, keep_upload: float, keep_result: fl
     if gone_evenly(jobs.redis, max(min(keep_upload, keep_result) / 2, 2 * SWEEP_SECONDS), now):
         sweep(jobs, blobs, keep_upload, keep_result, now=now)
     else:
-        forget_orphans(jobs.records, blobs, math.inf)
+        delete_orphaned_blobs(jobs.records, blobs, math.inf)
     rewrite_append_only_file(jobs.redis)
 
 
@@ -48,17 +48,17 @@ def sweep(
         animation = jobs.records.animations.one(identifier)
         if animation is not None:
             _sweep_animation(jobs, blobs, animation, used < now - keep_upload, now - keep_result)
-    forget_orphans(jobs.records, blobs, doubt_seconds)
+    delete_orphaned_blobs(jobs.records, blobs, doubt_seconds)
 
 
 def _sweep_animation(jobs: Jobs, blobs: Blobs, animation: AnimationRecord, unused: bool, oldest: float) -> None:
     cuts = jobs.records.segmentations.of(animation.id)
     outdated = [cut for cut in cuts if not cut.live and cut.updated < oldest]
     for cut in outdated:
-        forget_segmentation(jobs, blobs, cut.id)
+        delete_segmentation(jobs, blobs, cut.id)
     if not unused or any(cut.live for cut in cuts):
         return
-    forget_files(jobs, blobs, animation)
+    delete_result_files(jobs, blobs, animation)
     if not jobs.records.animations.delete(animation):
         jobs.records.animations.strip(animation)
 

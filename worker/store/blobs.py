@@ -19,7 +19,7 @@ from obstore.exceptions import NotFoundError
 from obstore.store import LocalStore, ObjectStore, from_url
 
 from caesura.worker.store.disk_space import check_disk_space
-from caesura.worker.store.temporary_files import aside, path_of, write_all
+from caesura.worker.store.temporary_files import file_path, temporary_file, write_all
 
 if TYPE_CHECKING:  # a type alone: it is not there at run time
     from obstore.store import RetryConfig
@@ -80,12 +80,12 @@ class Blobs:
             key = _new_key(kind)
             obstore.put(self._store, key, content)
             return key
-        with aside(self._scratch) as file:
+        with temporary_file(self._scratch) as file:
             for piece in [content] if isinstance(content, bytes | memoryview) else content:
                 if stays_free is not None:
                     check_disk_space(self._scratch, len(piece), stays_free)
                 write_all(file, piece)
-            return self.adopt(path_of(file), kind)
+            return self.adopt(file_path(file), kind)
 
     def read(self, key: str) -> bytes:
         """All bytes of a blob that is known to be small."""
@@ -128,10 +128,10 @@ class Blobs:
         if self._folder is not None:
             yield self._existing(key)
             return
-        with aside(self._scratch) as copy:
+        with temporary_file(self._scratch) as copy:
             for piece in self._pieces(key, 0, self.size(key), PIECE_BYTES):
                 write_all(copy, piece)
-            yield path_of(copy)
+            yield file_path(copy)
 
     def delete(self, key: str) -> None:
         """Delete it; nothing happens where it is not there."""

@@ -11,17 +11,17 @@ from caesura.worker.records.schema import Part
 from caesura.worker.store.blobs import Blobs
 from caesura.worker.store.disk_space import check_disk_space
 
-Grant = Callable[[int], None]
+GrantMemory = Callable[[int], None]
 
 
 @contextmanager
-def mapped_parts(blobs: Blobs, parts: Iterable[Part], grant: Grant) -> Iterator[dict[str, memoryview]]:
+def map_parts(blobs: Blobs, parts: Iterable[Part], grant: GrantMemory) -> Iterator[dict[str, memoryview]]:
     """The parts by name, read-only, mapped from their files. A part of no bytes is an empty buffer."""
     with ExitStack() as stack:
-        yield {part.name: _mapped(stack.enter_context(blobs.path(part.key)), grant) for part in parts}
+        yield {part.name: _map_file(stack.enter_context(blobs.path(part.key)), grant) for part in parts}
 
 
-def scratch_space(folder: Path, grant: Grant, stays_free: int | None = None) -> Callable[[int], memoryview]:
+def scratch_space(folder: Path, grant: GrantMemory, stays_free: int | None = None) -> Callable[[int], memoryview]:
     """What hands out writable buffers of so many bytes, each a file without a name in `folder`.
 
     The disk is reserved at once: a full one is an OSError here and not a bus error on some later write. Raises
@@ -44,7 +44,7 @@ def scratch_space(folder: Path, grant: Grant, stays_free: int | None = None) -> 
     return scratch
 
 
-def _mapped(path: Path, grant: Grant) -> memoryview:
+def _map_file(path: Path, grant: GrantMemory) -> memoryview:
     with path.open("rb") as file:
         size = os.fstat(file.fileno()).st_size
         if size == 0:

@@ -15,7 +15,7 @@ from pathlib import Path
 SUFFIX = ".part"
 
 
-def held_file(folder: Path) -> FileIO:
+def locked_temporary_file(folder: Path) -> FileIO:
     """A new file in a folder, open for reading and writing, held until it is closed."""
     folder.mkdir(parents=True, exist_ok=True)
     while True:
@@ -27,21 +27,21 @@ def held_file(folder: Path) -> FileIO:
 
 
 @contextmanager
-def aside(folder: Path) -> Iterator[FileIO]:
+def temporary_file(folder: Path) -> Iterator[FileIO]:
     """A held file that is gone afterwards, unless it was moved to its place."""
-    with held_file(folder) as file:
+    with locked_temporary_file(folder) as file:
         try:
             yield file
         finally:
-            path_of(file).unlink(missing_ok=True)
+            file_path(file).unlink(missing_ok=True)
 
 
-def path_of(file: FileIO) -> Path:
+def file_path(file: FileIO) -> Path:
     """Where a held file is."""
     return Path(os.fsdecode(file.name))
 
 
-def clear(folder: Path) -> int:
+def delete_abandoned_files(folder: Path) -> int:
     """Delete the files in a folder that nobody holds; how many."""
     count = 0
     for path in folder.glob(f"*{SUFFIX}"):

@@ -4,13 +4,13 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from caesura.core.analysis import Analysis
-from caesura.core.methods.alignment.cluster_analysis import aligned
+from caesura.core.methods.alignment.cluster_analysis import cluster_by_alignment
 from caesura.core.methods.alignment.frame_kernel import frame_kernel
-from caesura.core.methods.alignment.initial_segmentation import Initial
-from caesura.core.methods.alignment.sample_rate import frames_per_sample, samples
-from caesura.core.methods.alignment.segments import Lengths
-from caesura.core.methods.alignment.temporal_reduction import reduction
-from caesura.core.methods.comparison import compared
+from caesura.core.methods.alignment.initial_segmentation import InitialSegmentation
+from caesura.core.methods.alignment.sample_rate import frames_per_sample, seconds_to_samples
+from caesura.core.methods.alignment.segments import SegmentLengths
+from caesura.core.methods.alignment.temporal_reduction import reduce_frames
+from caesura.core.methods.comparison import cut_by_compared_method
 from caesura.core.parameters import Parameters
 from caesura.core.segmentation import Cut
 
@@ -22,16 +22,18 @@ LONGEST_SECONDS = 2.37
 
 def aca(analysis: Analysis, parameters: Parameters) -> Cut:
     """Cut a take into segments of at most 2.37 s, in K groups that are alike when bent in time onto each other."""
-    return compared(analysis, parameters, _divide, MOST_FRAMES)
+    return cut_by_compared_method(analysis, parameters, _label_frames, MOST_FRAMES)
 
 
-def _divide(
+def _label_frames(
     values: Float[np.ndarray, "frames D"], frame_rate: float, motions: int, seed: int
 ) -> Int[np.ndarray, "frames"]:
-    reduced = reduction(values, frames_per_sample(frame_rate), seed)
+    reduced = reduce_frames(values, frames_per_sample(frame_rate), seed)
     kernel = frame_kernel(reduced.of(values))
     count, duration = len(kernel), len(values) / frame_rate
-    lengths = Lengths(samples(SHORTEST_SECONDS, count, duration), samples(LONGEST_SECONDS, count, duration))
-    first = Initial.of(kernel, np.ones(count), motions, lengths)
-    found = aligned(kernel, first.weights, first.start(seed), first.lengths.longest)
+    lengths = SegmentLengths(
+        seconds_to_samples(SHORTEST_SECONDS, count, duration), seconds_to_samples(LONGEST_SECONDS, count, duration)
+    )
+    first = InitialSegmentation.of(kernel, np.ones(count), motions, lengths)
+    found = cluster_by_alignment(kernel, first.weights, first.start(seed), first.lengths.longest)
     return reduced.per_frame(found.segments.per_sample)

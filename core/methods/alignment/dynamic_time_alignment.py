@@ -6,7 +6,7 @@ from jaxtyping import Float, Int
 from caesura.core.kernels import alignment
 
 
-def segment_kernel(
+def dynamic_time_alignment_kernel(
     kernel: Float[np.ndarray, "samples samples"],
     weights: Float[np.ndarray, "samples"],
     bounds: Int[np.ndarray, "bounds"],
@@ -17,5 +17,5 @@ def segment_kernel(
     corner, a and b the weights of the samples of either segment. O(samples²).
     """
     out = np.empty((len(bounds) - 1, len(bounds) - 1))
-    alignment.alike(kernel, weights, bounds, out)
+    alignment.align_segments(kernel, weights, bounds, out)
     return out

@@ -6,6 +6,6 @@ def frames_per_sample(frame_rate: float) -> int:
     return max(round(frame_rate / 24), 1)
 
 
-def samples(seconds: float, count: int, duration: float) -> int:
+def seconds_to_samples(seconds: float, count: int, duration: float) -> int:
     """So many seconds in samples, of which `count` take `duration` seconds; at least one."""
     return max(round(seconds * count / duration), 1)

@@ -7,17 +7,17 @@ from jaxtyping import Int
 
 
 @dataclass(frozen=True)
-class Lengths:
+class SegmentLengths:
     """The fewest and the most samples of a segment."""
 
     shortest: int
     longest: int
 
-    def within(self, samples: int) -> "Lengths":
+    def within(self, samples: int) -> "SegmentLengths":
         """As near to these as lets segments tile so many samples: 61 are no sum of numbers from 32 to 60."""
         longest = min(self.longest, samples)
         fewest = -(-samples // longest)
-        return Lengths(min(self.shortest, samples // fewest), longest)
+        return SegmentLengths(min(self.shortest, samples // fewest), longest)
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ import numpy as np
 from jaxtyping import Int
 
 
-def without_short_runs(labels: Int[np.ndarray, "samples"], shortest: int) -> Int[np.ndarray, "samples"]:
+def remove_short_runs(labels: Int[np.ndarray, "samples"], shortest: int) -> Int[np.ndarray, "samples"]:
     """No run is shorter than `shortest`, but one that is all there is.
 
     The shortest run (the first of equals) goes first: at an end, to the one beside it; in the middle, half to either

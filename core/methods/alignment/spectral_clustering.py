@@ -13,12 +13,12 @@ DIGITS = 9
 """Eigenvalues and rows of eigenvectors that differ by less are the same."""
 
 
-def spectral_groups(kernel: Float[np.ndarray, "n n"], groups: int, seed: int) -> Int[np.ndarray, "n"]:
+def cluster_spectrally(kernel: Float[np.ndarray, "n n"], groups: int, seed: int) -> Int[np.ndarray, "n"]:
     """A group 0 … groups−1 for every row; fewer where no more can be told apart."""
-    return grouped(embedding(kernel, groups), groups, seed)
+    return cluster_rows(spectral_embedding(kernel, groups), groups, seed)
 
 
-def embedding(kernel: Float[np.ndarray, "n n"], groups: int) -> Float[np.ndarray, "n d"]:
+def spectral_embedding(kernel: Float[np.ndarray, "n n"], groups: int) -> Float[np.ndarray, "n d"]:
     """The rows, at unit length, of the `groups` leading eigenvectors of D^−½ K D^−½, D the row sums of K; d is the rank
     of K where that is less.
 
@@ -32,7 +32,7 @@ def embedding(kernel: Float[np.ndarray, "n n"], groups: int) -> Float[np.ndarray
     return np.asarray(np.round(rows / np.where(length > 0, length, 1.0), DIGITS))
 
 
-def grouped(rows: Float[np.ndarray, "n d"], groups: int, seed: int) -> Int[np.ndarray, "n"]:
+def cluster_rows(rows: Float[np.ndarray, "n d"], groups: int, seed: int) -> Int[np.ndarray, "n"]:
     """k-means with 50 starts; no more groups than rows that differ."""
     different, which = np.unique(rows, axis=0, return_inverse=True)
     if len(different) <= groups:

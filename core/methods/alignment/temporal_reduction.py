@@ -6,12 +6,12 @@ import numpy as np
 from jaxtyping import Float, Int
 from sklearn.cluster import KMeans
 
-LOOKS = 20
+SAMPLED_FRAMES = 20
 STARTS = 50
 
 
 @dataclass(frozen=True)
-class Reduction:
+class TemporalReduction:
     """`bounds` (samples + 1): the first frame of every block, and the number of frames."""
 
     bounds: Int[np.ndarray, "bounds"]
@@ -25,15 +25,17 @@ class Reduction:
         return np.asarray(np.repeat(labels, np.diff(self.bounds)))
 
 
-def reduction(values: Float[np.ndarray, "frames D"], most: int, seed: int, looks: int = LOOKS) -> Reduction:
+def reduce_frames(
+    values: Float[np.ndarray, "frames D"], most: int, seed: int, looks: int = SAMPLED_FRAMES
+) -> TemporalReduction:
     """Blocks of at most `most` frames of one look; k-means (50 starts) sorts the frames into `looks` looks."""
     frames = len(values)
     if most <= 1:
-        return Reduction(np.arange(frames + 1))
+        return TemporalReduction(np.arange(frames + 1))
     looks = min(looks, len(np.unique(values, axis=0)))
     look = KMeans(looks, init="random", n_init=STARTS, max_iter=100, random_state=seed).fit_predict(values)
     firsts = [0]
     for frame in range(1, frames):
         if look[frame] != look[frame - 1] or frame - firsts[-1] == most:
             firsts.append(frame)
-    return Reduction(np.array([*firsts, frames]))
+    return TemporalReduction(np.array([*firsts, frames]))

@@ -4,9 +4,9 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from caesura.core.analysis import Analysis
-from caesura.core.methods.comparison import compared
-from caesura.core.methods.luo2014.partition import partition
-from caesura.core.methods.luo2014.segment_grouping import grouped
+from caesura.core.methods.comparison import cut_by_compared_method
+from caesura.core.methods.luo2014.partition import partition_frames
+from caesura.core.methods.luo2014.segment_grouping import group_segments
 from caesura.core.parameters import Parameters
 from caesura.core.segmentation import Cut
 
@@ -22,10 +22,10 @@ def luo2014(analysis: Analysis, parameters: Parameters) -> Cut:
     The method knows neither motions that return nor how many segments there are. So there are as many as the take
     has times 2.5 s, at least K; the likest are one motion until K are left; and neighbours of one motion are joined.
     """
-    return compared(analysis, parameters, _divide, MOST_FRAMES)
+    return cut_by_compared_method(analysis, parameters, _label_frames, MOST_FRAMES)
 
 
-def _divide(
+def _label_frames(
     values: Float[np.ndarray, "frames D"],
     frame_rate: float,
     motions: int,
@@ -33,5 +33,5 @@ def _divide(
 ) -> Int[np.ndarray, "frames"]:
     shortest = max(round(SHORTEST_SECONDS * frame_rate), 1)
     segments = max(round(len(values) / frame_rate / SECONDS_PER_SEGMENT), motions)
-    bounds = partition(values, segments, shortest)
-    return np.asarray(np.repeat(grouped(values, bounds, motions), np.diff(bounds)))
+    bounds = partition_frames(values, segments, shortest)
+    return np.asarray(np.repeat(group_segments(values, bounds, motions), np.diff(bounds)))

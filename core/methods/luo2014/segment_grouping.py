@@ -8,7 +8,7 @@ from scipy.spatial.distance import squareform
 from caesura.core.kernels import dissimilarity
 
 
-def grouped(
+def group_segments(
     values: Float[np.ndarray, "frames D"], bounds: Int[np.ndarray, "bounds"], motions: int
 ) -> Int[np.ndarray, "segments"]:
     """A motion for every segment: the nearest are joined until `motions` are left (average linkage, Sokal 1958).
@@ -19,6 +19,6 @@ def grouped(
     if segments == 1:
         return np.zeros(1, np.int64)
     apart = np.empty((segments, segments))
-    dissimilarity.between(np.ascontiguousarray(values, np.float64), bounds.astype(np.int64), apart)
+    dissimilarity.mean_dissimilarity(np.ascontiguousarray(values, np.float64), bounds.astype(np.int64), apart)
     tree = linkage(squareform(apart, checks=False), "average")
     return np.asarray(fcluster(tree, motions, "maxclust") - 1, np.int64)

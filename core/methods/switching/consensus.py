@@ -17,7 +17,7 @@ WEIGHTINGS = ((1.0, 1.0), (1.0, 0.5), (0.5, 1.0), (1.0, 0.0), (0.0, 1.0))
 EQUAL = 1e-3
 
 
-def most_agreed(labellings: Sequence[Int[np.ndarray, "steps"]]) -> int:
+def find_consensus(labellings: Sequence[Int[np.ndarray, "steps"]]) -> int:
     """Which of the labellings agrees most with all of them: the highest mean adjusted Rand index, the first of equals.
 
     Only those of most motions are asked, for fewer than there are was not the question.

@@ -7,11 +7,11 @@ import numpy as np
 from jaxtyping import Float
 
 from caesura.core.methods.switching.motion_count import SHORTEST_SECONDS
-from caesura.core.methods.switching.switching_k_means import Settled, distances
-from caesura.core.methods.switching.windowed_signal import Signal
+from caesura.core.methods.switching.switching_k_means import SwitchingClusters, squared_distances
+from caesura.core.methods.switching.windowed_signal import WindowedSignal
 
 
-def certainty(signal: Signal, settled: Settled, penalty: float) -> Float[np.ndarray, "cuts"]:
+def cut_confidence(signal: WindowedSignal, settled: SwitchingClusters, penalty: float) -> Float[np.ndarray, "cuts"]:
     """For every cut, 0 to 1: how much dearer the take would be without it.
 
     Without the cut, the dearer of the two sides to win over joins the motion of the cheaper one: the cost rises by
@@ -23,7 +23,7 @@ def certainty(signal: Signal, settled: Settled, penalty: float) -> Float[np.ndar
     labels = settled.labels
     cuts = np.flatnonzero(np.diff(labels)) + 1
     squares = np.einsum("sd,sd->s", signal.values, signal.values)
-    cost = distances(signal.values, squares, settled.means)
+    cost = squared_distances(signal.values, squares, settled.means)
     total = np.concatenate([np.zeros((1, cost.shape[1])), np.cumsum(cost, axis=0)])
     bounds = np.concatenate([[0], cuts, [len(labels)]])
     spent = total[bounds[1:]] - total[bounds[:-1]]

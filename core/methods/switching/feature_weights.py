@@ -4,18 +4,18 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from caesura.core.analysis import Analysis
-from caesura.core.methods.switching.initial_segments import Stretches
-from caesura.core.methods.switching.windowed_signal import Signal, Windows
+from caesura.core.methods.switching.initial_segments import InitialSegments
+from caesura.core.methods.switching.windowed_signal import DescriptorWindows, WindowedSignal
 
 CHANGE_SECONDS = 1 / 3
 """What a change of motion costs: as much as a third of a second at the mean distance from the mean of all."""
 
 
 @dataclass(frozen=True)
-class Weighed:
+class WeightedTake:
     """The signal of one weighting, and its stretches, which do not depend on how many motions are asked for."""
 
-    signal: Signal
+    signal: WindowedSignal
 
     @property
     def penalty(self) -> float:
@@ -23,37 +23,37 @@ class Weighed:
         return CHANGE_SECONDS / self.signal.seconds_per_step
 
     @cached_property
-    def stretches(self) -> Stretches:
+    def stretches(self) -> InitialSegments:
         """The stretches, however many there are."""
-        return Stretches.of(self.signal, self.penalty)
+        return InitialSegments.of(self.signal, self.penalty)
 
-    def at_least(self, motions: int) -> Stretches:
+    def at_least(self, motions: int) -> InitialSegments:
         """As many stretches as there are to be motions, where that is possible."""
         enough = motions <= len(self.stretches)
-        return self.stretches if enough else Stretches.of(self.signal, self.penalty, at_least=motions)
+        return self.stretches if enough else InitialSegments.of(self.signal, self.penalty, at_least=motions)
 
 
 @dataclass(frozen=True)
-class Weighings:
+class Weightings:
     """The weightings of one take, each worked out when it is first asked for."""
 
-    windows: Windows
-    _known: dict[tuple[float, ...], Weighed | None] = field(default_factory=dict)
+    windows: DescriptorWindows
+    _known: dict[tuple[float, ...], WeightedTake | None] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, analysis: Analysis) -> "Weighings":
+    def of(cls, analysis: Analysis) -> "Weightings":
         """Of the descriptors that tell anything."""
         features = tuple(feature for feature in analysis.features if feature.values.shape[1])
-        return cls(Windows.of(features, analysis.frames, analysis.frame_rate))
+        return cls(DescriptorWindows.of(features, analysis.frames, analysis.frame_rate))
 
     @property
     def descriptors(self) -> int:
         """How many descriptors are weighed."""
         return len(self.windows.statistics)
 
-    def by(self, weights: tuple[float, ...] = ()) -> Weighed | None:
+    def by(self, weights: tuple[float, ...] = ()) -> WeightedTake | None:
         """The take with its descriptors weighed so, by default alike; None where nothing changes."""
         if weights not in self._known:
             signal = self.windows.signal(weights)
-            self._known[weights] = None if signal is None else Weighed(signal)
+            self._known[weights] = None if signal is None else WeightedTake(signal)
         return self._known[weights]

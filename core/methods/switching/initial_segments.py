@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from caesura.core.kernels import switching
-from caesura.core.methods.switching.windowed_signal import WINDOW_SECONDS, Signal
+from caesura.core.methods.switching.windowed_signal import WINDOW_SECONDS, WindowedSignal
 
 LONGEST_SECONDS = 30.0
 """A longer stretch comes in pieces; it bounds the work on takes in which nothing happens."""
@@ -19,7 +19,7 @@ HALVINGS = 10
 
 
 @dataclass(frozen=True)
-class Stretches:
+class InitialSegments:
     """Means and lengths of the long stretches, and the merges that make fewer and fewer groups of them."""
 
     means: Float[np.ndarray, "stretches D"]
@@ -28,7 +28,7 @@ class Stretches:
     second: Int[np.ndarray, "merges"]
 
     @classmethod
-    def of(cls, signal: Signal, penalty: float, at_least: int = 1) -> "Stretches":
+    def of(cls, signal: WindowedSignal, penalty: float, at_least: int = 1) -> "InitialSegments":
         """The stretches of least squared distance to their means + `penalty` each, and Ward's order of merging them.
 
         Only those as long as a window take part: a shorter one is the blur between two. Where `at_least` so many
@@ -36,11 +36,11 @@ class Stretches:
         """
         total = np.zeros((len(signal.values) + 1, signal.values.shape[1]))
         np.cumsum(signal.values, axis=0, out=total[1:])
-        bounds = _bounds(signal, total, penalty)
+        bounds = _segment_bounds(signal, total, penalty)
         for halving in range(HALVINGS):
             if len(bounds) > at_least:
                 break
-            bounds = _bounds(signal, total, penalty / 2 ** (halving + 1))
+            bounds = _segment_bounds(signal, total, penalty / 2 ** (halving + 1))
         lengths = np.diff(bounds)
         long = int(np.count_nonzero(lengths >= signal.steps(WINDOW_SECONDS)))
         chosen = np.sort(np.argsort(-lengths, kind="stable")[: max(min(long, MOST), at_least)])
@@ -63,11 +63,13 @@ class Stretches:
         return np.asarray(weights @ self.means / weights.sum(axis=1)[:, None])
 
 
-def _bounds(signal: Signal, total: Float[np.ndarray, "sums D"], penalty: float) -> Int[np.ndarray, "bounds"]:
+def _segment_bounds(
+    signal: WindowedSignal, total: Float[np.ndarray, "sums D"], penalty: float
+) -> Int[np.ndarray, "bounds"]:
     """Where the stretches begin, and where the last one ends."""
     squares = np.concatenate([[0.0], np.cumsum(np.einsum("sd,sd->s", signal.values, signal.values))])
     start_of = np.zeros(len(total), np.int64)
-    switching.partition(total, squares, penalty, signal.steps(LONGEST_SECONDS), start_of)
+    switching.greedy_partition(total, squares, penalty, signal.steps(LONGEST_SECONDS), start_of)
     bounds = [len(signal.values)]
     while bounds[-1] > 0:
         bounds.append(int(start_of[bounds[-1]]))

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Int
 
-from caesura.core.methods.switching.initial_segments import Stretches
-from caesura.core.methods.switching.separation import separations
-from caesura.core.methods.switching.switching_k_means import Settled, settle
-from caesura.core.methods.switching.windowed_signal import WINDOW_SECONDS, Signal
+from caesura.core.methods.switching.initial_segments import InitialSegments
+from caesura.core.methods.switching.separation import measure_separations
+from caesura.core.methods.switching.switching_k_means import SwitchingClusters, run_switching_k_means
+from caesura.core.methods.switching.windowed_signal import WINDOW_SECONDS, WindowedSignal
 
 SHORTEST_SECONDS = 1.5 * WINDOW_SECONDS
 """A motion that never lasts so long is a transition: the window and a cross-fade of half of it blur that much."""
@@ -20,25 +20,25 @@ MOST = 200
 
 
 @dataclass(frozen=True)
-class Choice:
+class MotionCountChoice:
     """The solution for the chosen number of motions, and the cost left for every number that was tried."""
 
-    settled: Settled
+    settled: SwitchingClusters
     scores: tuple[tuple[int, float], ...]
 
 
-def choose(signal: Signal, stretches: Stretches, penalty: float) -> Choice:
+def choose_motion_count(signal: WindowedSignal, stretches: InitialSegments, penalty: float) -> MotionCountChoice:
     """Try 1, 2, 3, … motions, and take as many as were found to be real.
 
     Every motion saves less than the one before it where there are thirty, so a share of the cost cannot decide:
     at each K the motions are counted that last and lie apart. The count grows with K up to the true number and then
     stays, because what comes next are halves and transitions. The scores are costs, as shares of that of one motion.
     """
-    tried: list[Settled] = []
+    tried: list[SwitchingClusters] = []
     real = met = 1
     for count in range(1, min(len(stretches), MOST) + 1):
-        tried.append(settle(signal.values, stretches.grouped(count), penalty))
-        found = real_motions(signal, tried[-1])
+        tried.append(run_switching_k_means(signal.values, stretches.grouped(count), penalty))
+        found = count_separate_motions(signal, tried[-1])
         if found > real:
             real, met = found, count
         flat = count > PATIENCE and tried[-1].cost > FLAT * tried[-1 - PATIENCE].cost
@@ -46,19 +46,19 @@ def choose(signal: Signal, stretches: Stretches, penalty: float) -> Choice:
             break
     whole = tried[0].cost or 1.0
     scores = tuple((i + 1, settled.cost / whole) for i, settled in enumerate(tried))
-    return Choice(tried[min(real, len(tried)) - 1], scores)
+    return MotionCountChoice(tried[min(real, len(tried)) - 1], scores)
 
 
-def real_motions(signal: Signal, settled: Settled) -> int:
+def count_separate_motions(signal: WindowedSignal, settled: SwitchingClusters) -> int:
     """How many motions last and lie apart: those that do not are counted with their nearest."""
     if settled.motions == 1:
         return 1
-    lasting = _longest(settled.labels, settled.motions) >= signal.steps(SHORTEST_SECONDS)
-    apart = separations(signal, settled.labels, settled.motions)
+    lasting = _longest_runs(settled.labels, settled.motions) >= signal.steps(SHORTEST_SECONDS)
+    apart = measure_separations(signal, settled.labels, settled.motions)
     return max(_groups(apart[np.ix_(lasting, lasting)] < 1), 1)
 
 
-def _longest(labels: Int[np.ndarray, "steps"], count: int) -> Int[np.ndarray, "K"]:
+def _longest_runs(labels: Int[np.ndarray, "steps"], count: int) -> Int[np.ndarray, "K"]:
     """The length of the longest segment of every motion."""
     bounds = np.concatenate([[0], np.flatnonzero(np.diff(labels)) + 1, [len(labels)]])
     longest = np.zeros(count, np.int64)

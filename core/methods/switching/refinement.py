@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from caesura.core.analysis import Features
-from caesura.core.methods.switching.window_statistics import speeds
+from caesura.core.methods.switching.window_statistics import compute_speeds
 
 REACH_SECONDS = 0.5
 """A window of a second and a half knows a cut no worse than that; people change motion gradually, and over longer the
@@ -23,14 +23,14 @@ DISAGREEMENT = 0.5
 
 
 @dataclass(frozen=True)
-class Refined:
+class RefinedCuts:
     """Labels of the frames, and for every cut, 0 to 1, how clear its place is: what moving it would cost."""
 
     labels: Int[np.ndarray, "frames"]
     clearness: Float[np.ndarray, "cuts"]
 
 
-def refined(labels: Int[np.ndarray, "frames"], features: tuple[Features, ...], frame_rate: float) -> Refined:
+def refine_cuts(labels: Int[np.ndarray, "frames"], features: tuple[Features, ...], frame_rate: float) -> RefinedCuts:
     """Every cut moved within half a second to where the frames before it are most like the motion before it, and those
     after it like the one after.
 
@@ -40,13 +40,13 @@ def refined(labels: Int[np.ndarray, "frames"], features: tuple[Features, ...], f
     cuts = np.flatnonzero(np.diff(labels)) + 1
     poses = poses_and_speeds(features, frame_rate)
     if len(cuts) == 0 or poses.shape[1] == 0:
-        return Refined(labels, np.ones(len(cuts)))
+        return RefinedCuts(labels, np.ones(len(cuts)))
     examples = _examples(poses, labels, cuts, round(GUARD_SECONDS * frame_rate))
     reach, beside = (max(round(seconds * frame_rate), 1) for seconds in (REACH_SECONDS, BESIDE_SECONDS))
-    moved, clearness = _moved(poses, labels, cuts, examples, reach, beside)
+    moved, clearness = _move_cut(poses, labels, cuts, examples, reach, beside)
     bounds = np.concatenate([[0], cuts])
     lengths = np.diff(np.concatenate([[0], moved, [len(labels)]]))
-    return Refined(np.repeat(labels[bounds], lengths), clearness)
+    return RefinedCuts(np.repeat(labels[bounds], lengths), clearness)
 
 
 def poses_and_speeds(features: tuple[Features, ...], frame_rate: float) -> Float[np.ndarray, "frames D"]:
@@ -54,7 +54,7 @@ def poses_and_speeds(features: tuple[Features, ...], frame_rate: float) -> Float
     parts = []
     for feature in features:
         values = feature.values.astype(np.float64)
-        for part, weight in ((values - values.mean(axis=0), 1.0), (speeds(values, frame_rate), SPEED_WEIGHT)):
+        for part, weight in ((values - values.mean(axis=0), 1.0), (compute_speeds(values, frame_rate), SPEED_WEIGHT)):
             square = float(np.einsum("fd,fd->", part, part)) / len(part)
             if square > 0:
                 parts.append((part * (weight / np.sqrt(square))).astype(np.float32))
@@ -79,7 +79,7 @@ def _examples(
     return found
 
 
-def _moved(
+def _move_cut(
     poses: Float[np.ndarray, "frames D"],
     labels: Int[np.ndarray, "frames"],
     cuts: Int[np.ndarray, "cuts"],
@@ -95,18 +95,18 @@ def _moved(
         last = min(cut + reach, (cut + int(bounds[i + 2])) // 2)
         if first >= last:
             continue
-        before = _unlikeness(poses[first:last], examples[int(labels[cut - 1])])
-        after = _unlikeness(poses[first:last], examples[int(labels[cut])])
+        before = _distance_to_examples(poses[first:last], examples[int(labels[cut - 1])])
+        after = _distance_to_examples(poses[first:last], examples[int(labels[cut])])
         cost = np.concatenate([[0.0], np.cumsum(before - after)])
         best = int(cost.argmin())
         moved[i] = first + best
         left, right = slice(max(best - beside, 0), best), slice(best, best + beside)
         agreed = 1 - DISAGREEMENT * abs(int(moved[i]) - cut) / reach
-        clearness[i] = agreed * min(_clear(before[left], after[left]), _clear(after[right], before[right]))
+        clearness[i] = agreed * min(_clearness(before[left], after[left]), _clearness(after[right], before[right]))
     return moved, clearness
 
 
-def _clear(own: Float[np.ndarray, "some"], other: Float[np.ndarray, "some"]) -> float:
+def _clearness(own: Float[np.ndarray, "some"], other: Float[np.ndarray, "some"]) -> float:
     """1 − (unlikeness to their own motion / to the other)² of the frames on one side of a cut, at least 0.
 
     Without such frames, at the end of a cut's reach, nothing is known: 0 frames are unlike nothing.
@@ -119,7 +119,7 @@ def _clear(own: Float[np.ndarray, "some"], other: Float[np.ndarray, "some"]) -> 
 _TINY = float(np.finfo(np.float64).tiny)
 
 
-def _unlikeness(
+def _distance_to_examples(
     poses: Float[np.ndarray, "some D"], examples: Float[np.ndarray, "examples D"]
 ) -> Float[np.ndarray, "some"]:
     """Mean distance to the nearest examples."""

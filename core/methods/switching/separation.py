@@ -7,7 +7,7 @@ how far are two means apart, against how far the steps of each motion stray from
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from caesura.core.methods.switching.windowed_signal import WINDOW_SECONDS, Signal
+from caesura.core.methods.switching.windowed_signal import WINDOW_SECONDS, WindowedSignal
 
 APART = 3.25
 """Distance in deviations along the line of the means. Halves of a motion that strays normally are 2.65 apart, and the
@@ -25,17 +25,19 @@ PRIOR_SECONDS = 12.0
 """A motion seen briefly says little about how it strays: so many seconds of the straying of all motions are added."""
 
 
-def separations(signal: Signal, labels: Int[np.ndarray, "steps"], count: int) -> Float[np.ndarray, "K K"]:
+def measure_separations(
+    signal: WindowedSignal, labels: Int[np.ndarray, "steps"], count: int
+) -> Float[np.ndarray, "K K"]:
     """How much farther apart two motions are than one cut in half would be: 1 or more is two; infinite on the diagonal.
 
     The least of distance / (`APART` · deviation along the line of the means), distance / (`BEYOND` · deviation) and
     distance / `NEAR`.
     Steps near a change are left out: there the window holds both motions.
     """
-    inside = interior(labels, signal.steps(WINDOW_SECONDS / 2))
+    inside = find_interior_steps(labels, signal.steps(WINDOW_SECONDS / 2))
     members = [inside & (labels == k) for k in range(count)]
     means = np.stack([signal.values[of_motion].mean(axis=0) for of_motion in members])
-    scatters = _scatters(signal, members, PRIOR_SECONDS / signal.seconds_per_step)
+    scatters = _motion_scatters(signal, members, PRIOR_SECONDS / signal.seconds_per_step)
     line = means[:, None] - means[None]
     length = np.linalg.norm(line, axis=2)
     line /= np.maximum(length, _TINY)[..., None]
@@ -48,7 +50,7 @@ def separations(signal: Signal, labels: Int[np.ndarray, "steps"], count: int) ->
     return np.asarray(separation)
 
 
-def interior(labels: Int[np.ndarray, "steps"], guard: int) -> Bool[np.ndarray, "steps"]:
+def find_interior_steps(labels: Int[np.ndarray, "steps"], guard: int) -> Bool[np.ndarray, "steps"]:
     """Steps at least `guard` from every change of label, but always the middle third of a segment."""
     bounds = np.concatenate([[0], np.flatnonzero(np.diff(labels)) + 1, [len(labels)]])
     inside = np.zeros(len(labels), bool)
@@ -61,7 +63,9 @@ def interior(labels: Int[np.ndarray, "steps"], guard: int) -> Bool[np.ndarray, "
 _TINY = float(np.finfo(np.float64).tiny)
 
 
-def _scatters(signal: Signal, members: list[Bool[np.ndarray, "steps"]], prior: float) -> Float[np.ndarray, "K D D"]:
+def _motion_scatters(
+    signal: WindowedSignal, members: list[Bool[np.ndarray, "steps"]], prior: float
+) -> Float[np.ndarray, "K D D"]:
     """How the steps of every motion stray, with `prior` steps' worth of how all do, and how performances differ."""
     sizes = np.array([np.count_nonzero(of_motion) for of_motion in members], np.float64)[:, None, None]
     centred = [signal.values[of_motion] - signal.values[of_motion].mean(axis=0) for of_motion in members]

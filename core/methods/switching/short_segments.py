@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float, Int
 
-from caesura.core.methods.switching.switching_k_means import Settled, distances
-from caesura.core.methods.switching.windowed_signal import WINDOW_SECONDS, Signal
+from caesura.core.methods.switching.switching_k_means import SwitchingClusters, squared_distances
+from caesura.core.methods.switching.windowed_signal import WINDOW_SECONDS, WindowedSignal
 
 
-def without_blur(signal: Signal, settled: Settled) -> Settled:
+def remove_short_segments(signal: WindowedSignal, settled: SwitchingClusters) -> SwitchingClusters:
     """The same with segments shorter than a window given to their neighbours, shortest first.
 
     Such a segment is divided where the distances to the two motions beside it are least. The first and the last
@@ -17,16 +17,16 @@ def without_blur(signal: Signal, settled: Settled) -> Settled:
     """
     labels = settled.labels.copy()
     squares = np.einsum("sd,sd->s", signal.values, signal.values)
-    cost = distances(signal.values, squares, settled.means)
-    while (found := _shortest(labels, signal.steps(WINDOW_SECONDS))) is not None:
+    cost = squared_distances(signal.values, squares, settled.means)
+    while (found := _shortest_segment(labels, signal.steps(WINDOW_SECONDS))) is not None:
         start, stop = found
         before, after = labels[start - 1], labels[stop]
-        divide = start + _division(cost[start:stop, before], cost[start:stop, after])
+        divide = start + _divide_between_neighbours(cost[start:stop, before], cost[start:stop, after])
         labels[start:divide], labels[divide:stop] = before, after
     return replace(settled, labels=labels)
 
 
-def _shortest(labels: Int[np.ndarray, "steps"], enough: int) -> tuple[int, int] | None:
+def _shortest_segment(labels: Int[np.ndarray, "steps"], enough: int) -> tuple[int, int] | None:
     """The shortest inner segment that is too short and not the only one of its motion, the first of equals."""
     bounds = np.concatenate([[0], np.flatnonzero(np.diff(labels)) + 1, [len(labels)]])
     lengths, motions = np.diff(bounds), labels[bounds[:-1]]
@@ -36,6 +36,6 @@ def _shortest(labels: Int[np.ndarray, "steps"], enough: int) -> tuple[int, int] 
     return (int(bounds[shortest]), int(bounds[shortest + 1])) if lengths[shortest] < enough else None
 
 
-def _division(before: Float[np.ndarray, "steps"], after: Float[np.ndarray, "steps"]) -> int:
+def _divide_between_neighbours(before: Float[np.ndarray, "steps"], after: Float[np.ndarray, "steps"]) -> int:
     """How many steps go to the motion before, so that the distances are least."""
     return int(np.concatenate([[0.0], np.cumsum(before - after)]).argmin())

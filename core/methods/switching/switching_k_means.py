@@ -11,7 +11,7 @@ PASSES = 50
 
 
 @dataclass(frozen=True)
-class Settled:
+class SwitchingClusters:
     """Labels of the steps, the mean of each motion, and what it costs: Σ squared distance + penalty · changes."""
 
     labels: Int[np.ndarray, "steps"]
@@ -24,35 +24,37 @@ class Settled:
         return len(self.means)
 
 
-def settle(values: Float[np.ndarray, "steps D"], means: Float[np.ndarray, "K D"], penalty: float) -> Settled:
+def run_switching_k_means(
+    values: Float[np.ndarray, "steps D"], means: Float[np.ndarray, "K D"], penalty: float
+) -> SwitchingClusters:
     """Alternate from the given means to a fixed point, O(steps · K) a pass; the cost never rises.
 
     A motion that no step wants is dropped, so that fewer than K may come back.
     """
     squares = np.einsum("sd,sd->s", values, values)
-    settled = _once(values, squares, means, penalty)
+    settled = _run_once(values, squares, means, penalty)
     for _ in range(PASSES - 1):
-        again = _once(values, squares, settled.means, penalty)
+        again = _run_once(values, squares, settled.means, penalty)
         if again.cost >= settled.cost * (1 - 1e-9):
             break
         settled = again
     return settled
 
 
-def _once(
+def _run_once(
     values: Float[np.ndarray, "steps D"],
     squares: Float[np.ndarray, "steps"],
     means: Float[np.ndarray, "K D"],
     penalty: float,
-) -> Settled:
+) -> SwitchingClusters:
     """The cheapest labels for these means, and the means of those labels."""
     labels = np.empty(len(values), np.int64)
-    cost = switching.viterbi(distances(values, squares, means), penalty, labels)
+    cost = switching.viterbi(squared_distances(values, squares, means), penalty, labels)
     used, labels = np.unique(labels, return_inverse=True)
-    return Settled(labels, means_of(values, labels, len(used)), cost)
+    return SwitchingClusters(labels, motion_means(values, labels, len(used)), cost)
 
 
-def distances(
+def squared_distances(
     values: Float[np.ndarray, "rows D"], squares: Float[np.ndarray, "rows"], means: Float[np.ndarray, "K D"]
 ) -> Float[np.ndarray, "rows K"]:
     """Squared distances of rows to means; `squares` are the rows' squared lengths."""
@@ -63,7 +65,7 @@ def distances(
     return np.asarray(np.maximum(cross, 0.0, out=cross))
 
 
-def means_of(
+def motion_means(
     values: Float[np.ndarray, "rows D"], labels: Int[np.ndarray, "rows"], count: int
 ) -> Float[np.ndarray, "K D"]:
     """The mean of the rows of every label 0 … count−1; each label must have some."""

@@ -4,7 +4,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 
-def window_statistics(
+def compute_window_statistics(
     values: Float[np.ndarray, "frames components"], half: int, frame_rate: float, at: Int[np.ndarray, "steps"]
 ) -> tuple[
     Float[np.ndarray, "steps components"],
@@ -23,11 +23,13 @@ def window_statistics(
     rounding = 1e-12 * np.einsum("fc,fc->c", values, values) / len(values)
     variance = _window_mean(values * values, start, stop) - mean * mean
     deviation = np.sqrt(np.where(variance > rounding, variance, 0.0))
-    speed = speeds(values, frame_rate)
+    speed = compute_speeds(values, frame_rate)
     return mean, deviation, np.sqrt(np.maximum(_window_mean(speed * speed, start, stop), 0.0))
 
 
-def speeds(values: Float[np.ndarray, "frames components"], frame_rate: float) -> Float[np.ndarray, "frames components"]:
+def compute_speeds(
+    values: Float[np.ndarray, "frames components"], frame_rate: float
+) -> Float[np.ndarray, "frames components"]:
     """Central differences per second, one-sided at the ends; zero for a single frame."""
     if len(values) < 2:
         return np.zeros_like(values)

@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from caesura.core.analysis import Features
-from caesura.core.methods.switching.window_statistics import window_statistics
+from caesura.core.methods.switching.window_statistics import compute_window_statistics
 
 WINDOW_SECONDS = 1.5
 STEPS_PER_SECOND = 10.0
@@ -15,7 +15,7 @@ KEPT = 0.995
 
 
 @dataclass(frozen=True)
-class Signal:
+class WindowedSignal:
     """`values` (steps, D) at unit mean square, and `stride`: how many frames of the take a step stands for.
 
     `size` and `tempo` (steps, D): where a step would go if its motion were performed twice as large, or twice as
@@ -39,7 +39,7 @@ class Signal:
 
 
 @dataclass(frozen=True)
-class Windows:
+class DescriptorWindows:
     """Mean, deviation and RMS speed of every descriptor over a second and a half, at every step.
 
     `statistics[descriptor][statistic]` (steps, components): computed once, however the descriptors are weighed.
@@ -51,15 +51,15 @@ class Windows:
     stride: int
 
     @classmethod
-    def of(cls, features: tuple[Features, ...], frames: int, frame_rate: float) -> "Windows":
+    def of(cls, features: tuple[Features, ...], frames: int, frame_rate: float) -> "DescriptorWindows":
         """The windows of a take, O(frames)."""
         stride = max(round(frame_rate / STEPS_PER_SECOND), 1)
         at = np.minimum(np.arange(0, frames, stride) + stride // 2, frames - 1)
         half = max(round(WINDOW_SECONDS * frame_rate / 2), 1)
-        statistics = tuple(window_statistics(feature.values, half, frame_rate, at) for feature in features)
+        statistics = tuple(compute_window_statistics(feature.values, half, frame_rate, at) for feature in features)
         return cls(statistics, frames, frame_rate, stride)
 
-    def signal(self, weights: tuple[float, ...] = ()) -> Signal | None:
+    def signal(self, weights: tuple[float, ...] = ()) -> WindowedSignal | None:
         """The signal to cut; None where nothing changes.
 
         The three statistics of a descriptor count alike, whatever their units, and so do the descriptors but for
@@ -78,8 +78,8 @@ class Windows:
         if not values:
             return None
         together = np.concatenate(values, axis=1)
-        directions = _leading(together) / _root_mean_square(together)
-        return Signal(
+        directions = _leading_components(together) / _root_mean_square(together)
+        return WindowedSignal(
             together @ directions,
             np.concatenate(size, axis=1) @ directions,
             np.concatenate(tempo, axis=1) @ directions,
@@ -94,7 +94,7 @@ def _root_mean_square(values: Float[np.ndarray, "rows D"]) -> float:
     return float(np.sqrt(np.einsum("rd,rd->", values, values) / len(values)))
 
 
-def _leading(values: Float[np.ndarray, "steps D"]) -> Float[np.ndarray, "D d"]:
+def _leading_components(values: Float[np.ndarray, "steps D"]) -> Float[np.ndarray, "D d"]:
     """As few orthonormal directions as hold `KEPT` of the energy: distances stay, and D shrinks threefold."""
     energy, directions = np.linalg.eigh(values.T @ values)
     share = np.cumsum(energy[::-1]) / energy.sum()

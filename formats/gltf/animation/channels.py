@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from caesura.formats.gltf.document import Document
-from caesura.formats.gltf.geometry.accessors import Accessors, Layout
-from caesura.formats.gltf.json_object import Entry
+from caesura.formats.gltf.document import GltfDocument
+from caesura.formats.gltf.geometry.accessors import AccessorLayout, Accessors
+from caesura.formats.gltf.json_object import JsonObject
 
 WIDTHS = {"translation": 3, "rotation": 4, "scale": 3}
 INTERPOLATIONS = ("STEP", "LINEAR", "CUBICSPLINE")
@@ -17,12 +17,12 @@ class Channel:
     node: int
     path: str
     interpolation: str
-    input: Layout
-    output: Layout
-    entry: Entry
+    input: AccessorLayout
+    output: AccessorLayout
+    entry: JsonObject
 
 
-def read_channels(document: Document, accessors: Accessors, animation: Entry) -> list[Channel]:
+def read_channels(document: GltfDocument, accessors: Accessors, animation: JsonObject) -> list[Channel]:
     """The channels that move a node; raises `invalid-animation`, also where two move the same thing."""
     samplers = animation.entries("samplers")
     channels: dict[tuple[int, str], Channel] = {}
@@ -36,7 +36,9 @@ def read_channels(document: Document, accessors: Accessors, animation: Entry) ->
     return list(channels.values())
 
 
-def _channel(document: Document, accessors: Accessors, samplers: list[Entry], entry: Entry) -> Channel | None:
+def _channel(
+    document: GltfDocument, accessors: Accessors, samplers: list[JsonObject], entry: JsonObject
+) -> Channel | None:
     target = entry.entry("target")
     if target is None:
         raise entry.refusal("The channel has no target.", "invalid-animation", "target")
@@ -63,7 +65,7 @@ def _channel(document: Document, accessors: Accessors, samplers: list[Entry], en
     return channel
 
 
-def _check(document: Document, channel: Channel) -> None:
+def _check(document: GltfDocument, channel: Channel) -> None:
     if channel.input.type != "SCALAR" or channel.input.dtype.kind != "f" or channel.input.count == 0:
         raise channel.entry.refusal("Key times must be one float or more.", "invalid-animation", "input")
     width, kind = values_per_key(document, channel)
@@ -78,7 +80,7 @@ def _check(document: Document, channel: Channel) -> None:
         )
 
 
-def values_per_key(document: Document, channel: Channel) -> tuple[int, str]:
+def values_per_key(document: GltfDocument, channel: Channel) -> tuple[int, str]:
     """Numbers in one key of a channel, and the type of its accessor."""
     if channel.path != "weights":
         return WIDTHS[channel.path], f"VEC{WIDTHS[channel.path]}"
@@ -88,7 +90,7 @@ def values_per_key(document: Document, channel: Channel) -> tuple[int, str]:
     return targets, "SCALAR"
 
 
-def morph_targets(document: Document, node: Entry) -> int:
+def morph_targets(document: GltfDocument, node: JsonObject) -> int:
     """How many morph targets the mesh of a node has."""
     if "mesh" not in node:
         return 0

@@ -6,9 +6,9 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from caesura.formats.gltf.animation.channels import WIDTHS, Channel
-from caesura.formats.gltf.geometry.accessors import Accessors, Layout
+from caesura.formats.gltf.geometry.accessors import AccessorLayout, Accessors
 from caesura.formats.gltf.posing.nodes import R, S, T, unit_rotations
-from caesura.formats.kernels.keyframe_sampling import CUBIC, LINEAR, STEP, sample
+from caesura.formats.kernels.keyframe_sampling import CUBIC, LINEAR, STEP, sample_tracks
 
 MODES = {"STEP": STEP, "LINEAR": LINEAR, "CUBICSPLINE": CUBIC}
 PLACES = {"translation": T.start, "rotation": R.start, "scale": S.start}
@@ -18,7 +18,7 @@ Slots = dict[int, int]
 
 
 @dataclass(frozen=True)
-class Tracks:
+class KeyTracks:
     """All channels of a take in one table, so that a block of frames is one call.
 
     Keys of channel c are times[first_key[c]:][:keys[c]], its values begin at values[first_value[c]] with width[c]
@@ -49,7 +49,7 @@ class Tracks:
         keys and rotations normalised (glTF 2.0, appendix C).
         """
         out = np.tile(self.still, (len(seconds), 1))
-        sample(
+        sample_tracks(
             seconds, self.times, self.first_key, self.keys, self.values, self.first_value, self.width, self.mode,
             self.is_rotation, self.slot, out,
         )  # fmt: skip
@@ -58,7 +58,7 @@ class Tracks:
 
 def read_tracks(
     accessors: Accessors, channels: list[Channel], still: Float[np.ndarray, "numbers"], nodes: Slots, weights: Slots
-) -> Tracks:
+) -> KeyTracks:
     """The keys of `channels`. Channels of nodes that are not in `nodes` or `weights` move nothing that is drawn."""
     used = [channel for channel in channels if channel.node in (weights if channel.path == "weights" else nodes)]
     inputs = {channel.input.index: channel.input for channel in channels}
@@ -66,7 +66,7 @@ def read_tracks(
     times, first_key = _joined(clocks)
     outputs = {channel.output.index: channel for channel in used}
     values, first_value = _joined({index: _values(accessors, channel) for index, channel in outputs.items()})
-    return Tracks(
+    return KeyTracks(
         still=still,
         times=times,
         values=values,
@@ -83,7 +83,7 @@ def read_tracks(
     )
 
 
-def _times(accessors: Accessors, layout: Layout) -> Float[np.ndarray, "keys"]:
+def _times(accessors: Accessors, layout: AccessorLayout) -> Float[np.ndarray, "keys"]:
     times = accessors.floats(layout)[:, 0]
     if times[0] < 0 or (np.diff(times) < 0).any():
         raise layout.entry.refusal("Key times must not be negative and must not decrease.", "invalid-animation")

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 from caesura.core.errors import InvalidModel
 from caesura.formats.gltf.animation.channels import Channel, read_channels
-from caesura.formats.gltf.document import Document
+from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.geometry.accessors import Accessors
-from caesura.formats.take_selection import choose_take
+from caesura.formats.take_selection import select_take
 
 
 @dataclass(frozen=True)
@@ -18,7 +18,7 @@ class ChosenTake:
     channels: list[Channel]
 
 
-def chosen_takes(document: Document, accessors: Accessors, wanted: str | int) -> list[ChosenTake]:
+def find_chosen_takes(document: GltfDocument, accessors: Accessors, wanted: str | int) -> list[ChosenTake]:
     """The take that is wanted, or with `all` every take that moves something; raises as `choose_animation` does."""
     if wanted != "all" or len(document.animations) < 2 or "all" in document.take_names:
         return [
@@ -37,7 +37,7 @@ def chosen_takes(document: Document, accessors: Accessors, wanted: str | int) ->
     return moving or [ChosenTake(*choose_animation(document, accessors, "longest"))]
 
 
-def choose_animation(document: Document, accessors: Accessors, wanted: str | int) -> tuple[int, str, list[Channel]]:
+def choose_animation(document: GltfDocument, accessors: Accessors, wanted: str | int) -> tuple[int, str, list[Channel]]:
     """The chosen animation's place, name and channels; the longest, the first on ties, unless one is named.
 
     Raises `no-animation` saying what the file has instead, or `ParameterError` for a take that is not there.
@@ -51,9 +51,9 @@ def choose_animation(document: Document, accessors: Accessors, wanted: str | int
             pointer="/animations",
         )
     names = document.take_names
-    place = choose_take(names, wanted) if len(names) > 1 or wanted != "longest" else 0
+    place = select_take(names, wanted) if len(names) > 1 or wanted != "longest" else 0
     if place is None:
-        lengths = [last_key(accessors, read_channels(document, accessors, entry)) for entry in animations]
+        lengths = [last_key_seconds(accessors, read_channels(document, accessors, entry)) for entry in animations]
         place = max(range(len(animations)), key=lengths.__getitem__)
     channels = read_channels(document, accessors, animations[place])
     if not channels:
@@ -61,7 +61,7 @@ def choose_animation(document: Document, accessors: Accessors, wanted: str | int
     return place, names[place], channels
 
 
-def last_key(accessors: Accessors, channels: list[Channel]) -> float:
+def last_key_seconds(accessors: Accessors, channels: list[Channel]) -> float:
     """Seconds of the last key, which is how long a take is; -1 where nothing moves."""
     inputs = {channel.input.index: channel.input for channel in channels}
     return max((accessors.last(layout) for layout in inputs.values()), default=-1.0)

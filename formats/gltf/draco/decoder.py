@@ -9,19 +9,19 @@ import numpy as np
 from jaxtyping import Shaped
 
 from caesura.core.errors import InvalidModel
-from caesura.formats.gltf.document import Document
-from caesura.formats.gltf.draco.header import promised
-from caesura.formats.gltf.geometry.accessors import Accessors, Layout
-from caesura.formats.gltf.json_object import Entry
+from caesura.formats.gltf.document import GltfDocument
+from caesura.formats.gltf.draco.header import read_draco_counts
+from caesura.formats.gltf.geometry.accessors import AccessorLayout, Accessors
+from caesura.formats.gltf.json_object import JsonObject
 
 TRIANGLES, STRIP = 4, 5
 
 
 @dataclass(frozen=True)
-class Stream:
+class DracoStream:
     """One compressed primitive. `vertices` and `corners` are what its accessors count: so many must come out."""
 
-    entry: Entry
+    entry: JsonObject
     data: memoryview
     vertices: int
     corners: int
@@ -30,7 +30,7 @@ class Stream:
     def mesh(self) -> "DracoPy.DracoMesh":
         """All that is in it, decoded once; raises `decompression-failed`."""
         try:
-            points, faces = promised(self.data)
+            points, faces = read_draco_counts(self.data)
             if points > self.vertices or 3 * faces != self.corners:
                 self.fail(f"promises {points} vertices and {faces} triangles")
             mesh = DracoPy.decode(bytes(self.data))
@@ -41,7 +41,7 @@ class Stream:
             self.fail(f"holds {points} vertices")
         return mesh
 
-    def attribute(self, unique_id: int, layout: Layout) -> Shaped[np.ndarray, "count width"]:
+    def attribute(self, unique_id: int, layout: AccessorLayout) -> Shaped[np.ndarray, "count width"]:
         """The attribute of that id, in the kind of number that its accessor states."""
         found = next((a["data"] for a in self.mesh.attributes if a["unique_id"] == unique_id), None)
         if found is None or np.shape(found) != (layout.count, layout.width):
@@ -53,7 +53,7 @@ class Stream:
                 self.fail(f"has an attribute {unique_id} that {layout.dtype} cannot hold")
         return np.ascontiguousarray(values, layout.dtype)
 
-    def triangles(self, layout: Layout) -> Shaped[np.ndarray, "count 1"]:
+    def triangles(self, layout: AccessorLayout) -> Shaped[np.ndarray, "count 1"]:
         """The corners of all triangles."""
         return np.asarray(self.mesh.faces).reshape(layout.count, 1)
 
@@ -67,14 +67,14 @@ class Stream:
         )
 
 
-def unpacked(
-    document: Document,
+def replace_draco_attributes(
+    document: GltfDocument,
     accessors: Accessors,
-    primitive: Entry,
-    extension: Entry,
-    attributes: dict[str, Layout],
-    indices: Layout | None,
-) -> tuple[dict[str, Layout], Layout | None]:
+    primitive: JsonObject,
+    extension: JsonObject,
+    attributes: dict[str, AccessorLayout],
+    indices: AccessorLayout | None,
+) -> tuple[dict[str, AccessorLayout], AccessorLayout | None]:
     """The layouts of a compressed primitive, with those that lie in its stream made to come from there.
 
     What comes out are triangles, also where the file counts the corners of a strip. Attributes are found by the unique
@@ -85,7 +85,7 @@ def unpacked(
         raise extension.refusal("Compressed geometry must be indexed triangles.")
     data = accessors.view(extension.index("bufferView", len(document.views), "buffer views"))
     corners = indices.count if mode == TRIANGLES else _corners_of_strip(data, indices.count)
-    stream = Stream(extension, data, attributes["POSITION"].count, corners)
+    stream = DracoStream(extension, data, attributes["POSITION"].count, corners)
     named = extension.entry("attributes")
     if named is None or "POSITION" not in named:
         raise extension.refusal("POSITION is not among the compressed attributes.", name="attributes")
@@ -100,11 +100,11 @@ def unpacked(
 def _corners_of_strip(data: memoryview, corners: int) -> int:
     """Corners of the triangles that a strip of so many corners was compressed as; those without area may be missing."""
     try:
-        _, faces = promised(data)
+        _, faces = read_draco_counts(data)
     except ValueError:
         return corners  # told when it is decoded
     return 3 * faces if faces <= max(corners - 2, 0) else corners
 
 
-def _from_stream(layout: Layout, stream: Stream, unique_id: int) -> Layout:
+def _from_stream(layout: AccessorLayout, stream: DracoStream, unique_id: int) -> AccessorLayout:
     return replace(layout, unpack=lambda wanted: stream.attribute(unique_id, wanted))

@@ -10,7 +10,7 @@ VERSION = (2, 2)
 """The only one that glTF allows."""
 
 
-def promised(data: memoryview) -> tuple[int, int]:
+def read_draco_counts(data: memoryview) -> tuple[int, int]:
     """At most how many vertices the connectivity has, and how many faces; `ValueError` where that cannot be read.
 
     A few bytes of a stream may promise a billion of each: the decoder would allocate them.
@@ -20,7 +20,7 @@ def promised(data: memoryview) -> tuple[int, int]:
     major, minor, kind, method, flags = struct.unpack_from("<BBBBH", data, 5)
     if kind != MESH or method not in (SEQUENTIAL, EDGEBREAKER) or (major, minor) != VERSION:
         raise ValueError("it is no mesh of Draco 2.2")
-    numbers = _Numbers(data, 11)
+    numbers = _ByteReader(data, 11)
     if flags & WITH_METADATA:
         numbers.skip_metadata()
     if method == SEQUENTIAL:
@@ -31,7 +31,7 @@ def promised(data: memoryview) -> tuple[int, int]:
     return vertices, faces
 
 
-class _Numbers:
+class _ByteReader:
     """Reads one number after the other."""
 
     def __init__(self, data: memoryview, at: int) -> None:

@@ -7,35 +7,35 @@ from functools import cache
 import numpy as np
 from jaxtyping import Float, Int, Shaped
 
-from caesura.formats.gltf.document import Document
+from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.geometry.buffers import Buffers
-from caesura.formats.gltf.json_object import Entry
+from caesura.formats.gltf.json_object import JsonObject
 
 COMPONENTS: dict[int, str] = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 
 
 @dataclass(frozen=True)
-class Layout:
+class AccessorLayout:
     """What an accessor says it is: `count` elements of `width` components. Where it lies is checked too.
 
     With `unpack` its elements come out of compressed geometry and not out of a view of its own.
     """
 
-    entry: Entry
+    entry: JsonObject
     index: int
     count: int
     type: str
     width: int
     dtype: np.dtype[np.generic]
     normalized: bool
-    unpack: "Callable[[Layout], Shaped[np.ndarray, 'count width']] | None" = None
+    unpack: "Callable[[AccessorLayout], Shaped[np.ndarray, 'count width']] | None" = None
 
 
 class Accessors:
     """Decodes accessors, within the document's budget of decoded bytes; each use is counted."""
 
-    def __init__(self, document: Document) -> None:
+    def __init__(self, document: GltfDocument) -> None:
         self._document = document
         self._buffers = Buffers(document)
         self.layout = cache(self._layout)
@@ -43,7 +43,7 @@ class Accessors:
     def __len__(self) -> int:
         return len(self._document.accessors)
 
-    def floats(self, layout: Layout, *, vertex_data: bool = False) -> Float[np.ndarray, "count width"]:
+    def floats(self, layout: AccessorLayout, *, vertex_data: bool = False) -> Float[np.ndarray, "count width"]:
         """Elements as float32, normalized integers as the fractions they stand for; all finite.
 
         c / (2^b - 1) unsigned, max(c / (2^(b-1) - 1), -1) signed (glTF 2.0, section 3.6.2.2).
@@ -61,11 +61,11 @@ class Accessors:
             raise layout.entry.refusal(f"Element {where} is not a finite number.", "non-finite-data")
         return values
 
-    def indices(self, layout: Layout) -> Int[np.ndarray, "count"]:
+    def indices(self, layout: AccessorLayout) -> Int[np.ndarray, "count"]:
         """Elements as places in a list, int64."""
         return self.elements(layout).reshape(-1).astype(np.int64)
 
-    def elements(self, layout: Layout, *, vertex_data: bool = False) -> Shaped[np.ndarray, "count width"]:
+    def elements(self, layout: AccessorLayout, *, vertex_data: bool = False) -> Shaped[np.ndarray, "count width"]:
         """Elements as stored; a view of the file where that is possible."""
         entry = layout.entry
         size = layout.count * layout.width * layout.dtype.itemsize
@@ -81,7 +81,7 @@ class Accessors:
         sparse = entry.entry("sparse")
         return values if sparse is None else self._replaced(values, layout, sparse)
 
-    def last(self, layout: Layout) -> float:
+    def last(self, layout: AccessorLayout) -> float:
         """The last element of a list of scalars, without reading the others; NaN of an empty list."""
         if layout.count == 0 or "bufferView" not in layout.entry or "sparse" in layout.entry:
             values = self.elements(layout)
@@ -89,7 +89,7 @@ class Accessors:
             values = self._strided(layout, *self._place(layout.entry, layout.count, layout.dtype, layout.width, False))
         return float(values[-1, 0]) if len(values) else float("nan")
 
-    def check(self, layout: Layout, *, vertex_data: bool) -> None:
+    def check(self, layout: AccessorLayout, *, vertex_data: bool) -> None:
         """Raise where the accessor does not lie within its view; nothing is decoded."""
         if "bufferView" in layout.entry and layout.unpack is None:
             self._place(layout.entry, layout.count, layout.dtype, layout.width, vertex_data)
@@ -98,10 +98,10 @@ class Accessors:
         """The bytes of a buffer view that is no list of elements."""
         return self._buffers.view(number)
 
-    def _layout(self, index: int) -> Layout:
+    def _layout(self, index: int) -> AccessorLayout:
         entry = self._document.accessors[index]
         kind = entry.choice("type", tuple(WIDTHS))
-        layout = Layout(
+        layout = AccessorLayout(
             entry=entry,
             index=index,
             count=entry.whole("count"),
@@ -116,7 +116,7 @@ class Accessors:
         return layout
 
     def _place(
-        self, entry: Entry, count: int, dtype: np.dtype[np.generic], width: int, vertex_data: bool
+        self, entry: JsonObject, count: int, dtype: np.dtype[np.generic], width: int, vertex_data: bool
     ) -> tuple[memoryview, int, int]:
         """Bytes, offset and stride of `count` elements: offset + (count - 1) · stride + size within the view."""
         number = entry.index("bufferView", len(self._document.views), "buffer views")
@@ -134,12 +134,14 @@ class Accessors:
             )
         return data, offset, stride
 
-    def _strided(self, layout: Layout, data: memoryview, offset: int, stride: int) -> Shaped[np.ndarray, "count width"]:
+    def _strided(
+        self, layout: AccessorLayout, data: memoryview, offset: int, stride: int
+    ) -> Shaped[np.ndarray, "count width"]:
         shape, strides = (layout.count, layout.width), (stride, layout.dtype.itemsize)
         return np.ndarray(shape, layout.dtype, data, offset, strides) if layout.count else np.zeros(shape, layout.dtype)
 
     def _replaced(
-        self, values: Shaped[np.ndarray, "count width"], layout: Layout, sparse: Entry
+        self, values: Shaped[np.ndarray, "count width"], layout: AccessorLayout, sparse: JsonObject
     ) -> Shaped[np.ndarray, "count width"]:
         """The elements with some of them replaced (glTF 2.0, section 3.6.2.3)."""
         count = sparse.whole("count")
@@ -153,7 +155,7 @@ class Accessors:
         return replaced
 
     def _sparse_part(
-        self, sparse: Entry, name: str, count: int, width: int, dtype: np.dtype[np.generic] | None
+        self, sparse: JsonObject, name: str, count: int, width: int, dtype: np.dtype[np.generic] | None
     ) -> Shaped[np.ndarray, "count width"]:
         entry = sparse.entry(name)
         if entry is None:
@@ -168,14 +170,14 @@ class Accessors:
         )
 
 
-def _component(entry: Entry, known: tuple[int, ...]) -> np.dtype[np.generic]:
+def _component(entry: JsonObject, known: tuple[int, ...]) -> np.dtype[np.generic]:
     code = entry.whole("componentType")
     if code not in known:
         raise entry.refusal(f"componentType must be one of {known}, not {code}.", name="componentType")
     return np.dtype(COMPONENTS[code])
 
 
-def _stride(view: Entry, size: int, vertex_data: bool) -> int:
+def _stride(view: JsonObject, size: int, vertex_data: bool) -> int:
     """Bytes from one element to the next: 4 … 252, a multiple of 4, and for vertex data only."""
     if "byteStride" not in view:
         return size

@@ -5,15 +5,15 @@ import binascii
 from urllib.parse import unquote
 
 from caesura.core.errors import InvalidModel
-from caesura.formats.gltf.document import COMPRESSED, Document
-from caesura.formats.gltf.json_object import Entry
-from caesura.formats.gltf.meshopt.view import decode, decoded_size
+from caesura.formats.gltf.document import COMPRESSED, GltfDocument
+from caesura.formats.gltf.json_object import JsonObject
+from caesura.formats.gltf.meshopt.view import decode_view, decoded_size
 
 
 class Buffers:
     """Bytes of every buffer view. Nothing outside the upload is ever opened, whatever a URI says."""
 
-    def __init__(self, document: Document) -> None:
+    def __init__(self, document: GltfDocument) -> None:
         self._document = document
         self._opened: dict[int, memoryview] = {}
         self._decoded: dict[int, memoryview] = {}
@@ -32,10 +32,10 @@ class Buffers:
             return self._piece(view)
         if index not in self._decoded:
             self._document.budget.spend(decoded_size(view, packed), packed.pointer)
-            self._decoded[index] = decode(packed, self._piece(packed))
+            self._decoded[index] = decode_view(packed, self._piece(packed))
         return self._decoded[index]
 
-    def _piece(self, view: Entry) -> memoryview:
+    def _piece(self, view: JsonObject) -> memoryview:
         number = view.index("buffer", len(self._document.buffers), "buffers")
         data = self.buffer(number)
         start = view.whole("byteOffset", 0, code="out-of-bounds")
@@ -50,7 +50,7 @@ class Buffers:
             self._opened[index] = self._open(index, self._document.buffers[index])
         return self._opened[index]
 
-    def _open(self, index: int, buffer: Entry) -> memoryview:
+    def _open(self, index: int, buffer: JsonObject) -> memoryview:
         length = buffer.whole("byteLength", code="out-of-bounds")
         if "uri" not in buffer:
             data = self._binary(index, buffer)
@@ -63,12 +63,12 @@ class Buffers:
             raise buffer.refusal(f"The buffer has {len(data)} of the {length} bytes it states.", code)
         return data[:length]
 
-    def _binary(self, index: int, buffer: Entry) -> memoryview:
+    def _binary(self, index: int, buffer: JsonObject) -> memoryview:
         if index == 0 and self._document.binary is not None:
             return self._document.binary
         raise buffer.refusal("The buffer has neither a URI nor a binary chunk.", "out-of-bounds")
 
-    def _inline(self, uri: str, buffer: Entry) -> memoryview:
+    def _inline(self, uri: str, buffer: JsonObject) -> memoryview:
         """A base64 data: URI (RFC 2397), its size known from its length before it is decoded.
 
         `+`, `/` and `=` may be written as %2B, %2F and %3D, as anything in a URI.
@@ -82,7 +82,7 @@ class Buffers:
         except (binascii.Error, ValueError):
             raise buffer.refusal("The data: URI is not valid base64.", "invalid-data-uri", "uri") from None
 
-    def _part(self, uri: str, buffer: Entry) -> memoryview:
+    def _part(self, uri: str, buffer: JsonObject) -> memoryview:
         for name in (uri, unquote(uri)):
             if name in self._document.parts:
                 return self._document.parts[name]
@@ -93,14 +93,14 @@ def _is_data(uri: str) -> bool:
     return uri[:5].lower() == "data:"
 
 
-def _check_name(uri: str, buffer: Entry) -> None:
+def _check_name(uri: str, buffer: JsonObject) -> None:
     """Raise for a URI that is no plain relative name, used or not."""
     plain = unquote(uri).replace("\\", "/")
     if ":" in plain or "\0" in plain or plain.startswith("/") or ".." in plain.split("/"):
         raise _external(uri, buffer)
 
 
-def _external(uri: str, buffer: Entry) -> InvalidModel:
+def _external(uri: str, buffer: JsonObject) -> InvalidModel:
     return buffer.refusal(
         f"The data is in another file, {uri[:80]!r}, which was not sent. Send both in one request, under their exact "
         "names, or export as GLB.",

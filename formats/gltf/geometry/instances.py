@@ -5,23 +5,23 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from caesura.formats.gltf.document import Document
-from caesura.formats.gltf.geometry.accessors import Accessors, Layout
-from caesura.formats.gltf.json_object import Entry
+from caesura.formats.gltf.document import GltfDocument
+from caesura.formats.gltf.geometry.accessors import AccessorLayout, Accessors
+from caesura.formats.gltf.json_object import JsonObject
 from caesura.formats.gltf.posing.nodes import unit_rotations
 from caesura.formats.gltf.posing.skins import IDENTITY
-from caesura.formats.kernels.posing import worlds
+from caesura.formats.kernels.posing import compute_world_matrices
 
 EXTENSION = "EXT_mesh_gpu_instancing"
 KINDS = {"TRANSLATION": "VEC3", "ROTATION": "VEC4", "SCALE": "VEC3"}
 
 
 @dataclass(frozen=True)
-class Instances:
+class MeshInstances:
     """How often a node draws its mesh, and the accessors that say where; once where it says nothing of it."""
 
     count: int = 1
-    layouts: dict[str, Layout] | None = None
+    layouts: dict[str, AccessorLayout] | None = None
 
     def places(self, accessors: Accessors) -> Float[np.ndarray, "count 12"]:
         """From the mesh into the node's own space: translation · rotation · scale, row by row 3 x 4."""
@@ -38,19 +38,19 @@ class Instances:
                 rows[:, part] = unit_rotations(values, rounded=True) if name == "ROTATION" else values
         matrices = np.empty((1, self.count, 12))
         none = np.zeros(self.count, bool)
-        worlds(pose, np.full(self.count, -1), np.zeros((self.count, 12)), none, matrices)
+        compute_world_matrices(pose, np.full(self.count, -1), np.zeros((self.count, 12)), none, matrices)
         found: Float[np.ndarray, "count 12"] = matrices[0]
         return found
 
 
-def read_instances(document: Document, accessors: Accessors, node: Entry) -> Instances:
+def read_instances(document: GltfDocument, accessors: Accessors, node: JsonObject) -> MeshInstances:
     """The instances of a node, counted and not yet read; raises `invalid-gltf`."""
     entry = node.extension(EXTENSION)
     if entry is None:
-        return Instances()
+        return MeshInstances()
     if "skin" in node:
         document.notices.add("instances-ignored", f"{node.pointer} has a skin; its instances were left out.")
-        return Instances()
+        return MeshInstances()
     attributes = entry.entry("attributes")
     layouts = {
         name: accessors.layout(attributes.index(name, len(accessors), "accessors"))
@@ -67,4 +67,4 @@ def read_instances(document: Document, accessors: Accessors, node: Entry) -> Ins
     document.notices.add(
         "instances-expanded", f"{node.pointer} draws its mesh {max(counts)} times; every instance was taken."
     )
-    return Instances(counts.pop(), layouts)
+    return MeshInstances(counts.pop(), layouts)

@@ -5,24 +5,24 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from caesura.formats.gltf.document import Document
-from caesura.formats.gltf.draco.decoder import unpacked
-from caesura.formats.gltf.geometry.accessors import Accessors, Layout
-from caesura.formats.gltf.geometry.skin_weights import Influences, read_influences
-from caesura.formats.gltf.json_object import Entry
+from caesura.formats.gltf.document import GltfDocument
+from caesura.formats.gltf.draco.decoder import replace_draco_attributes
+from caesura.formats.gltf.geometry.accessors import AccessorLayout, Accessors
+from caesura.formats.gltf.geometry.skin_weights import SkinWeights, read_skin_weights
+from caesura.formats.gltf.json_object import JsonObject
 
 TRIANGLES, STRIP, FAN = 4, 5, 6
 
 
 @dataclass(frozen=True)
-class Outline:
+class PrimitiveHeader:
     """A primitive that can be used, by what its accessors say: nothing of it has been decoded yet."""
 
-    entry: Entry
+    entry: JsonObject
     mode: int
-    attributes: dict[str, Layout]
-    indices: Layout | None
-    targets: tuple[Layout | None, ...]
+    attributes: dict[str, AccessorLayout]
+    indices: AccessorLayout | None
+    targets: tuple[AccessorLayout | None, ...]
 
     @property
     def vertices(self) -> int:
@@ -43,10 +43,10 @@ class Primitive:
     positions: Float[np.ndarray, "V 3"]
     triangles: Int[np.ndarray, "T 3"]
     targets: Float[np.ndarray, "targets V 3"]
-    influences: Influences | None
+    influences: SkinWeights | None
 
 
-def outlines(document: Document, accessors: Accessors, mesh: Entry) -> list[Outline]:
+def read_primitive_headers(document: GltfDocument, accessors: Accessors, mesh: JsonObject) -> list[PrimitiveHeader]:
     """The primitives of a mesh that have triangles, in order; the others are noted and left out.
 
     Raises `invalid-gltf` where their morph targets differ in number: the weights of a mesh are those of all of them.
@@ -60,7 +60,7 @@ def outlines(document: Document, accessors: Accessors, mesh: Entry) -> list[Outl
     return kept
 
 
-def read_primitive(document: Document, accessors: Accessors, outline: Outline) -> Primitive:
+def read_primitive(document: GltfDocument, accessors: Accessors, outline: PrimitiveHeader) -> Primitive:
     """Decode a primitive."""
     vertices = outline.vertices
     document.budget.spend(len(outline.targets) * vertices * 12, outline.entry.pointer)
@@ -72,11 +72,11 @@ def read_primitive(document: Document, accessors: Accessors, outline: Outline) -
         positions=accessors.floats(outline.attributes["POSITION"], vertex_data=True),
         triangles=_triangles(document, accessors, outline),
         targets=targets,
-        influences=read_influences(document, accessors, outline.entry, outline.attributes),
+        influences=read_skin_weights(document, accessors, outline.entry, outline.attributes),
     )
 
 
-def _outline(document: Document, accessors: Accessors, primitive: Entry) -> Outline | None:
+def _outline(document: GltfDocument, accessors: Accessors, primitive: JsonObject) -> PrimitiveHeader | None:
     mode = primitive.whole("mode", TRIANGLES)
     if mode > FAN:
         raise primitive.refusal(f"mode must be 0 to {FAN}, not {mode}.", name="mode")
@@ -93,7 +93,7 @@ def _outline(document: Document, accessors: Accessors, primitive: Entry) -> Outl
         indices = accessors.layout(primitive.index("indices", len(accessors), "accessors"))
     draco = primitive.extension("KHR_draco_mesh_compression")
     if draco is not None:
-        layouts, indices = unpacked(document, accessors, primitive, draco, layouts, indices)
+        layouts, indices = replace_draco_attributes(document, accessors, primitive, draco, layouts, indices)
         mode = TRIANGLES
     for name, layout in layouts.items():
         if layout.count != position.count:
@@ -102,14 +102,14 @@ def _outline(document: Document, accessors: Accessors, primitive: Entry) -> Outl
     _check_position(document, position)
     if indices is not None:
         accessors.check(indices, vertex_data=False)
-    outline = Outline(primitive, mode, layouts, indices, _targets(document, accessors, primitive, position))
+    outline = PrimitiveHeader(primitive, mode, layouts, indices, _targets(document, accessors, primitive, position))
     if not outline.vertices or not outline.triangles:
         document.notices.add("primitive-skipped", f"{primitive.pointer} is empty.")
         return None
     return outline
 
 
-def _check_position(document: Document, position: Layout) -> None:
+def _check_position(document: GltfDocument, position: AccessorLayout) -> None:
     if position.type != "VEC3":
         raise position.entry.refusal(f"Positions must be VEC3, not {position.type}.", name="type")
     quantized = "KHR_mesh_quantization" in document.root.values("extensionsUsed")
@@ -117,9 +117,11 @@ def _check_position(document: Document, position: Layout) -> None:
         document.notices.add("undeclared-quantization", "Positions are integers, and the file does not say so.")
 
 
-def _targets(document: Document, accessors: Accessors, primitive: Entry, position: Layout) -> tuple[Layout | None, ...]:
+def _targets(
+    document: GltfDocument, accessors: Accessors, primitive: JsonObject, position: AccessorLayout
+) -> tuple[AccessorLayout | None, ...]:
     document.limits.check("max_targets", len(primitive.values("targets")), pointer=f"{primitive.pointer}/targets")
-    found: list[Layout | None] = []
+    found: list[AccessorLayout | None] = []
     for target in primitive.entries("targets"):
         if "POSITION" not in target:
             found.append(None)
@@ -132,7 +134,7 @@ def _targets(document: Document, accessors: Accessors, primitive: Entry, positio
     return tuple(found)
 
 
-def _triangles(document: Document, accessors: Accessors, outline: Outline) -> Int[np.ndarray, "T 3"]:
+def _triangles(document: GltfDocument, accessors: Accessors, outline: PrimitiveHeader) -> Int[np.ndarray, "T 3"]:
     corners = np.arange(outline.vertices)
     if outline.indices is not None:
         corners = _corners(accessors, outline, outline.indices)
@@ -147,7 +149,7 @@ def _triangles(document: Document, accessors: Accessors, outline: Outline) -> In
     return np.stack([corners[here], corners[here + 1 + odd], corners[here + 2 - odd]], axis=1)
 
 
-def _corners(accessors: Accessors, outline: Outline, indices: Layout) -> Int[np.ndarray, "corners"]:
+def _corners(accessors: Accessors, outline: PrimitiveHeader, indices: AccessorLayout) -> Int[np.ndarray, "corners"]:
     if indices.dtype.kind != "u" or indices.type != "SCALAR":
         raise indices.entry.refusal("Indices must be unsigned integers.", "index-out-of-range", "componentType")
     corners = accessors.indices(indices)

@@ -5,25 +5,25 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from caesura.formats.gltf.document import Document
-from caesura.formats.gltf.geometry.accessors import Accessors, Layout
-from caesura.formats.gltf.json_object import Entry
+from caesura.formats.gltf.document import GltfDocument
+from caesura.formats.gltf.geometry.accessors import AccessorLayout, Accessors
+from caesura.formats.gltf.json_object import JsonObject
 
 LARGEST = 1e30
 """Weights beyond this are broken numbers, and not ones that someone forgot to normalise."""
 
 
 @dataclass(frozen=True)
-class Influences:
+class SkinWeights:
     """`joints` and `weights` of every vertex, four for each set JOINTS_n, WEIGHTS_n. Weights sum to 1."""
 
     joints: Int[np.ndarray, "V influences"]
     weights: Float[np.ndarray, "V influences"]
 
 
-def read_influences(
-    document: Document, accessors: Accessors, primitive: Entry, attributes: dict[str, Layout]
-) -> Influences | None:
+def read_skin_weights(
+    document: GltfDocument, accessors: Accessors, primitive: JsonObject, attributes: dict[str, AccessorLayout]
+) -> SkinWeights | None:
     """The influences of a primitive, of all its sets; None where it has none."""
     sets = 0
     while f"JOINTS_{sets}" in attributes or f"WEIGHTS_{sets}" in attributes:
@@ -33,11 +33,11 @@ def read_influences(
     pairs = [_set(accessors, primitive, attributes, number) for number in range(sets)]
     joints = np.concatenate([joints for joints, _ in pairs], axis=1)
     weights = np.concatenate([weights for _, weights in pairs], axis=1)
-    return Influences(joints, _normalised(document, primitive, weights))
+    return SkinWeights(joints, _normalised(document, primitive, weights))
 
 
 def _set(
-    accessors: Accessors, primitive: Entry, attributes: dict[str, Layout], number: int
+    accessors: Accessors, primitive: JsonObject, attributes: dict[str, AccessorLayout], number: int
 ) -> tuple[Int[np.ndarray, "V 4"], Float[np.ndarray, "V 4"]]:
     joints, weights = attributes.get(f"JOINTS_{number}"), attributes.get(f"WEIGHTS_{number}")
     if joints is None or weights is None:
@@ -49,7 +49,7 @@ def _set(
 
 
 def _normalised(
-    document: Document, primitive: Entry, weights: Float[np.ndarray, "V influences"]
+    document: GltfDocument, primitive: JsonObject, weights: Float[np.ndarray, "V influences"]
 ) -> Float[np.ndarray, "V influences"]:
     """Weights of sum 1: negative ones count as 0, and where none is left the first joint has all."""
     if (np.abs(weights) > LARGEST).any():

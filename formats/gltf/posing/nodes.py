@@ -7,8 +7,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from caesura.core.errors import InvalidModel
-from caesura.formats.gltf.document import Document
-from caesura.formats.gltf.json_object import Entry
+from caesura.formats.gltf.document import GltfDocument
+from caesura.formats.gltf.json_object import JsonObject
 
 T, R, S = slice(0, 3), slice(3, 7), slice(7, 10)
 """Where translation, rotation (x, y, z, w) and scale lie in the ten numbers of a node's pose."""
@@ -28,7 +28,7 @@ class NodeGraph:
     rotation and scale; where `has_matrix`, `matrix` (row by row, 3 x 4) stands instead.
     """
 
-    entries: list[Entry]
+    entries: list[JsonObject]
     parent: Int[np.ndarray, "N"]
     order: Int[np.ndarray, "N"]
     children: list[list[int]]
@@ -48,7 +48,7 @@ class NodeGraph:
         return found
 
 
-def read_nodes(document: Document) -> NodeGraph:
+def read_nodes(document: GltfDocument) -> NodeGraph:
     """The nodes of the file; raises `invalid-node-graph` where they are no forest."""
     entries = document.nodes
     children = [_children(entry, len(entries)) for entry in entries]
@@ -73,7 +73,7 @@ def read_nodes(document: Document) -> NodeGraph:
     return NodeGraph(entries, parent, np.array(order, np.int64), children, pose, matrix, has_matrix)
 
 
-def scene_nodes(document: Document, graph: NodeGraph) -> list[int]:
+def scene_nodes(document: GltfDocument, graph: NodeGraph) -> list[int]:
     """The nodes of the default scene, depth first, children in their order."""
     stack = _scene_roots(document, graph)[::-1]
     found = []
@@ -84,7 +84,7 @@ def scene_nodes(document: Document, graph: NodeGraph) -> list[int]:
     return found
 
 
-def _scene_roots(document: Document, graph: NodeGraph) -> list[int]:
+def _scene_roots(document: GltfDocument, graph: NodeGraph) -> list[int]:
     scenes = document.root.entries("scenes")
     if not scenes:
         document.notices.add("no-scene", "The file has no scene; all its nodes were taken.")
@@ -109,7 +109,7 @@ def _scene_roots(document: Document, graph: NodeGraph) -> list[int]:
     return roots
 
 
-def _children(entry: Entry, count: int) -> list[int]:
+def _children(entry: JsonObject, count: int) -> list[int]:
     children: list[int] = entry.values("children")
     for place, child in enumerate(children):
         if type(child) is not int or not 0 <= child < count:
@@ -125,7 +125,7 @@ def _from_the_roots(parent: Int[np.ndarray, "N"], children: list[list[int]]) -> 
     return order
 
 
-def _read_pose(entry: Entry, pose: Float[np.ndarray, "10"]) -> None:
+def _read_pose(entry: JsonObject, pose: Float[np.ndarray, "10"]) -> None:
     if not entry.value.keys() & {"translation", "rotation", "scale"}:
         return
     pose[T] = entry.numbers("translation", 3, STILL[T])

@@ -7,8 +7,8 @@ from jaxtyping import Float, Int
 
 from caesura.formats.gltf.animation.sampling import Slots
 from caesura.formats.gltf.posing.nodes import NodeGraph
-from caesura.formats.gltf.scene_mesh import Figure
-from caesura.formats.kernels.posing import palette, worlds
+from caesura.formats.gltf.scene_mesh import SceneMesh
+from caesura.formats.kernels.posing import compute_bone_matrices, compute_world_matrices
 
 
 @dataclass(frozen=True)
@@ -24,13 +24,13 @@ class Skeleton:
     def palette(self, poses: Float[np.ndarray, "block numbers"]) -> Float[np.ndarray, "B 12 block"]:
         """What each bone does to a vertex bound to it: world · bind, row by row 3 x 4, the frames innermost."""
         world = np.empty((len(poses), len(self.parent), 12))
-        worlds(poses, self.parent, self.matrix, self.has_matrix, world)
+        compute_world_matrices(poses, self.parent, self.matrix, self.has_matrix, world)
         matrices = np.empty((len(self.bone_node), 12, len(poses)))
-        palette(world, self.bone_node, self.bone_bind, matrices)
+        compute_bone_matrices(world, self.bone_node, self.bone_bind, matrices)
         return matrices
 
 
-def read_skeleton(graph: NodeGraph, figure: Figure) -> tuple[Skeleton, Float[np.ndarray, "numbers"], Slots]:
+def read_skeleton(graph: NodeGraph, figure: SceneMesh) -> tuple[Skeleton, Float[np.ndarray, "numbers"], Slots]:
     """The nodes that move `figure`, their own poses in one row, and where each node's ten numbers begin."""
     nodes = graph.with_ancestors(figure.bone_node)
     place = np.full(len(graph.parent) + 1, -1)  # the last stands for the parent of a root, -1

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from caesura.formats.gltf.document import Document
+from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.geometry.accessors import Accessors
 
 IDENTITY = np.eye(4)[:3].reshape(-1)
@@ -19,7 +19,7 @@ class Skin:
     bind: Float[np.ndarray, "J 12"]
 
 
-def read_skin(document: Document, accessors: Accessors, number: int) -> Skin:
+def read_skin(document: GltfDocument, accessors: Accessors, number: int) -> Skin:
     """One skin of the file; raises `invalid-skin`."""
     entry = document.skins[number]
     joints = entry.values("joints")

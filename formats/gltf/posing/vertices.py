@@ -6,10 +6,10 @@ import numpy as np
 from jaxtyping import Float
 
 from caesura.core.errors import InvalidModel
-from caesura.formats.gltf.animation.sampling import Slots, Tracks
+from caesura.formats.gltf.animation.sampling import KeyTracks, Slots
 from caesura.formats.gltf.posing.skeleton import Skeleton
-from caesura.formats.gltf.scene_mesh import Figure
-from caesura.formats.kernels.posing import skin, skin_morphed
+from caesura.formats.gltf.scene_mesh import SceneMesh
+from caesura.formats.kernels.posing import skin_morphed_vertices, skin_vertices
 
 MOST_FRAMES = 32
 """Frames that are drawn at a time: enough for vector instructions, few enough that all matrices stay near."""
@@ -26,9 +26,9 @@ class PosedVertices:
     the mesh has morph targets, its position is base + Σ weight · displacement (glTF 2.0, section 3.7).
     """
 
-    figure: Figure
+    figure: SceneMesh
     skeleton: Skeleton
-    tracks: Tracks
+    tracks: KeyTracks
     weight_slots: Slots
     frame_rate: float
     start_seconds: float = 0.0
@@ -66,18 +66,18 @@ class PosedVertices:
             positions, first = self.figure.positions[part.start : part.stop], self.figure.first[part.start :]
             rest = (first, self.figure.bones, self.figure.weights, matrices, part.start, out)
             if part.targets is None:
-                finite &= skin(positions, *rest)
+                finite &= skin_vertices(positions, *rest)
             else:
                 slot = self.weight_slots[part.node]
                 shares = poses[:, slot : slot + len(part.targets)].T
                 used = shares.any(axis=1)
                 targets = part.targets if used.all() else part.targets[used]
-                finite &= skin_morphed(positions, targets, np.ascontiguousarray(shares[used]), *rest)
+                finite &= skin_morphed_vertices(positions, targets, np.ascontiguousarray(shares[used]), *rest)
         return finite
 
 
-def rest_pose(
-    figure: Figure, skeleton: Skeleton, still: Float[np.ndarray, "numbers"]
+def sample_rest_pose(
+    figure: SceneMesh, skeleton: Skeleton, still: Float[np.ndarray, "numbers"]
 ) -> Float[np.ndarray, "V 3"] | None:
     """The undeformed shape: every skin as it was bound, without morph targets, in the size it has in the scene.
 
@@ -91,5 +91,5 @@ def rest_pose(
         size = np.argsort(np.abs(np.linalg.det(linear)), kind="stable")
         matrices[start:stop] = matrices[start + size[len(size) // 2]]
     out = np.empty((1, len(figure.positions), 3), np.float32)
-    finite = skin(figure.positions, figure.first, figure.bones, figure.weights, matrices, 0, out)
+    finite = skin_vertices(figure.positions, figure.first, figure.bones, figure.weights, matrices, 0, out)
     return out[0] if finite else None

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
-from caesura.core.block_pass.projection import Projection, sample_frames
+from caesura.core.block_pass.projection import Projection, choose_sample_frames
 
 
 def sample(frames=300, size=90, rank=5):
@@ -59,7 +59,7 @@ def test_the_number_of_threads_does_not_matter():
 
 def test_the_sample_spans_the_take():
     """Few frames are all taken; of many, 2,000 from the first to the last."""
-    assert sample_frames(5).tolist() == [0, 1, 2, 3, 4]
-    frames = sample_frames(72_000)
+    assert choose_sample_frames(5).tolist() == [0, 1, 2, 3, 4]
+    frames = choose_sample_frames(72_000)
     assert (len(frames), frames[0], frames[-1]) == (2000, 0, 71_999)
     assert (np.diff(frames) > 30).all()

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from caesura.core.animation import Animation, Take
-from caesura.core.block_pass.measured_body import Body
-from caesura.core.block_pass.projection import sample_frames
+from caesura.core.block_pass.measured_body import MeasuredBody
+from caesura.core.block_pass.projection import choose_sample_frames
 from caesura.core.block_pass.range_estimate import FRAMES
 from caesura.core.errors import InvalidModel
 from caesura.core.parameters import Parameters
@@ -22,7 +22,7 @@ def test_the_percentile_is_right_though_the_frames_looked_at_are_nothing_like_th
     them do not reach the others."""
     frames = 33_000
     stretch = 1 + others * np.random.default_rng(0).random(frames)
-    stretch[sample_frames(frames, FRAMES)] = looked_at
+    stretch[choose_sample_frames(frames, FRAMES)] = looked_at
     vertices = (stretch[:, None, None] * SQUARE).astype(np.float32)
     take = Take(0, "", frames / 30, frames, 30.0)
     square = Animation(lambda a, b: vertices[a:b], 4, np.array([[0, 1, 2], [1, 3, 2]]), SQUARE, frames, 30.0, take)
@@ -74,7 +74,7 @@ def test_points_without_a_mesh_have_the_energy_of_their_pairs() -> None:
     moved = np.asarray(rest + steps, np.float32)
     take = Take(0, "", 100 / 30, 100, 30.0)
     points = Animation(lambda a, b: moved[a:b], 24, np.zeros((0, 3), np.int64), rest, 100, 30.0, take)
-    body, _ = Body.of(points, rest, Parameters())
+    body, _ = MeasuredBody.of(points, rest, Parameters())
     [(_, strains)] = body.surface.tiles(moved)
     found = analyse(points, Parameters(window_seconds=0.1, rest="bind"))
     expected = oracles.energy(oracles.bins(strains.T, found.strain_scale, 10), 10, 3)

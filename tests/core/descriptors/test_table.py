@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from caesura.core.agreement import frame_accuracy
-from caesura.core.descriptors.table import SURFACES
+from caesura.core.descriptors.table import DESCRIPTORS
 from caesura.core.errors import ParameterError
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse, cut, segment
@@ -14,8 +14,8 @@ from tests.animations import animation, performing_bar
 from tests.core.mesh.shapes import in_pieces, sheet
 from tests.formats.opening import opened
 
-DESCRIPTORS = get_args(Parameters.model_fields["descriptor"].annotation)
-CHOICES = [{"descriptor": name} for name in DESCRIPTORS] + [{"descriptor": "curvature", "curvature": "mean"}]
+DESCRIPTOR_NAMES = get_args(Parameters.model_fields["descriptor"].annotation)
+CHOICES = [{"descriptor": name} for name in DESCRIPTOR_NAMES] + [{"descriptor": "curvature", "curvature": "mean"}]
 every = pytest.mark.parametrize("choice", CHOICES, ids=lambda choice: "-".join(choice.values()))
 
 
@@ -27,14 +27,14 @@ def performance():
 
 def test_every_name_has_a_surface():
     """Pair distances are no surface, but pairs of points."""
-    assert set(SURFACES) | {"pair-distances"} == set(DESCRIPTORS)
+    assert set(DESCRIPTORS) | {"pair-distances"} == set(DESCRIPTOR_NAMES)
 
 
 def test_an_unknown_descriptor_is_told_the_known_ones():
     """By name."""
     with pytest.raises(ParameterError) as refused:
         Parameters.parse({"descriptor": "colour"})
-    assert all(name in refused.value.detail for name in DESCRIPTORS)
+    assert all(name in refused.value.detail for name in DESCRIPTOR_NAMES)
 
 
 @every
@@ -84,7 +84,7 @@ def test_triangles_in_pieces_are_one_surface(performance, choice):
         assert apart.strain_scale == pytest.approx(whole.strain_scale, rel=1e-3)
 
 
-@pytest.mark.parametrize("name", sorted(SURFACES))
+@pytest.mark.parametrize("name", sorted(DESCRIPTORS))
 def test_a_body_in_pieces_that_only_turn_is_measured_by_pairs(name):
     """No triangle changes by any descriptor; the distances between the pieces do."""
     place, triangles = sheet(columns=4, rows=3)
@@ -97,7 +97,7 @@ def test_a_body_in_pieces_that_only_turn_is_measured_by_pairs(name):
     assert np.isfinite(found.peak_strain).all()
 
 
-@pytest.mark.parametrize("name", sorted(SURFACES))
+@pytest.mark.parametrize("name", sorted(DESCRIPTORS))
 @pytest.mark.parametrize("file", ["Fox.glb", "CesiumMan.glb"])
 def test_real_characters_are_measured(shared, file, name):
     """One in separate triangles, one in pieces: every value is finite, and the surface is seen to move."""

@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from caesura.core.energy.key_frames import key_frames, local_maxima
+from caesura.core.energy.key_frames import extract_key_frames, find_local_maxima
 from tests import oracles
 
 
 def keys(curve, window, threshold=0.0):
     """Key-frames of a curve given as a list."""
     curve = np.asarray(curve, float)
-    return key_frames(curve, local_maxima(curve), window, threshold).tolist()
+    return extract_key_frames(curve, find_local_maxima(curve), window, threshold).tolist()
 
 
 def bump(frames=80, centre=40, width=6.0):
@@ -31,20 +31,20 @@ def test_algorithm_1_as_printed_appends_the_falling_side():
 
 def test_of_equal_neighbours_the_first_counts():
     """A plateau is one local maximum."""
-    assert local_maxima(np.array([0, 1, 1, 1, 0, 2, 2, 1.0])).tolist() == [1, 5]
+    assert find_local_maxima(np.array([0, 1, 1, 1, 0, 2, 2, 1.0])).tolist() == [1, 5]
     assert keys([0, 1, 1, 1, 0], 2) == [1]
 
 
 def test_a_shelf_on_a_slope_is_no_maximum():
     """Equal neighbours that are followed by a rise."""
-    assert local_maxima(np.array([0, 1, 1, 2, 0.0])).tolist() == [3]
+    assert find_local_maxima(np.array([0, 1, 1, 2, 0.0])).tolist() == [3]
 
 
 def test_a_constant_curve_and_an_undefined_one_have_no_maximum():
     """Nothing happens in either."""
-    assert local_maxima(np.full(9, 0.5)).tolist() == []
-    assert local_maxima(np.full(9, np.nan)).tolist() == []
-    assert local_maxima(np.array([np.nan, 0.5, 0.5, np.nan])).tolist() == []
+    assert find_local_maxima(np.full(9, 0.5)).tolist() == []
+    assert find_local_maxima(np.full(9, np.nan)).tolist() == []
+    assert find_local_maxima(np.array([np.nan, 0.5, 0.5, np.nan])).tolist() == []
 
 
 def test_only_the_highest_within_the_window_is_a_key_frame():

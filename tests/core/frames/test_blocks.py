@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from caesura.core.frames.blocks import BLOCKS_BYTES, blocks_of, frames_per_block, map_blocks, threads_at_once
+from caesura.core.frames.blocks import BLOCKS_BYTES, frames_per_block, map_blocks, split_into_blocks, threads_at_once
 
 
 @pytest.mark.parametrize("threads", [1, 2, 3])
@@ -61,7 +61,7 @@ def test_maps_may_be_chained():
 
 def test_blocks_tile_the_frames_and_shrink_for_large_meshes():
     """The last is shorter; 512 frames at most, 8 at least."""
-    assert blocks_of(10, 4) == [(0, 4), (4, 8), (8, 10)]
+    assert split_into_blocks(10, 4) == [(0, 4), (4, 8), (8, 10)]
     sizes = [frames_per_block(vertices) for vertices in (0, 100, 2_000, 10_000, 500_000, 10**7)]
     assert sizes == [512, 512, 128, 64, 32, 8]
 

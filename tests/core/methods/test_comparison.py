@@ -8,10 +8,10 @@ from caesura.core.analysis import Analysis, Features
 from caesura.core.document import Source
 from caesura.core.errors import ParameterError
 from caesura.core.methods import find_method
-from caesura.core.parameters import TOLD_MOTIONS, Parameters
+from caesura.core.parameters import METHODS_NEEDING_MOTIONS, Parameters
 
 RATE = 30.0
-NAMES = sorted(TOLD_MOTIONS)
+NAMES = sorted(METHODS_NEEDING_MOTIONS)
 
 
 def performance(order=(0, 1, 2, 0, 1), seconds=5.0, seed=0, components=6):

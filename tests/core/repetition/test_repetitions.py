@@ -9,10 +9,10 @@ from caesura.core.analysis import Features
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse, segment
-from caesura.core.repetition.period import period, unlikeness
-from caesura.core.repetition.repetition_ends import beats
-from caesura.core.repetition.repetitions import Repetitions, repeats
-from caesura.core.repetition.segment_features import passage
+from caesura.core.repetition.period import difference_function, find_period
+from caesura.core.repetition.repetition_ends import find_repetition_ends
+from caesura.core.repetition.repetitions import RepetitionFinder, find_repetitions
+from caesura.core.repetition.segment_features import segment_features
 from caesura.formats.read import read_animation
 from caesura.samples.figures import FIGURES, figure
 
@@ -31,7 +31,7 @@ def swings(lengths, columns=6, noise=0.01):
 def found(feature):
     """Where the repetitions of a take of one motion end."""
     labels = np.zeros(len(feature.values), np.int64)
-    (intervals,) = repeats(Repetitions((feature,), RATE), labels)
+    (intervals,) = find_repetitions(RepetitionFinder((feature,), RATE), labels)
     assert all(a.end == b.start for a, b in pairwise(intervals))
     assert (intervals[0].start, intervals[-1].end) == (0, len(labels))
     return [interval.end for interval in intervals]
@@ -65,21 +65,21 @@ def test_segments_are_looked_at_one_by_one():
     one, other = swings((30,) * 5), swings((45,) * 4)
     feature = Features("strain", np.concatenate([one.values, other.values[:, ::-1]]), 1.0)
     labels = np.repeat([0, 1], [len(one.values), len(other.values)])
-    assert [len(of_segment) for of_segment in repeats(Repetitions((feature,), RATE), labels)] == [5, 4]
+    assert [len(of_segment) for of_segment in find_repetitions(RepetitionFinder((feature,), RATE), labels)] == [5, 4]
 
 
 def test_unlikeness_is_that_of_its_definition():
     """Against sums written out."""
-    shown = passage((swings((31, 40, 35)),), 0, 106, RATE)
+    shown = segment_features((swings((31, 40, 35)),), 0, 106, RATE)
     apart = [np.mean([np.sum((b - a) ** 2) for a, b in zip(shown, shown[lag:], strict=False)]) for lag in range(61)]
     slow = [1.0, *(apart[lag] / np.mean(apart[1 : lag + 1]) for lag in range(1, 61))]
-    np.testing.assert_allclose(unlikeness(shown, 60), slow, rtol=1e-6, atol=1e-9)
+    np.testing.assert_allclose(difference_function(shown, 60), slow, rtol=1e-6, atol=1e-9)
 
 
 def test_beats_of_a_period_that_cannot_fit_are_the_passage():
     """A passage shorter than the fastest repetition."""
-    assert beats(np.random.default_rng(0).normal(size=(5, 2)), 30).tolist() == [0, 5]
-    assert period(np.zeros((0, 3)), RATE) == 0
+    assert find_repetition_ends(np.random.default_rng(0).normal(size=(5, 2)), 30).tolist() == [0, 5]
+    assert find_period(np.zeros((0, 3)), RATE) == 0
 
 
 @pytest.mark.parametrize("name", FIGURES)
@@ -90,7 +90,7 @@ def test_the_figures_repetitions_are_counted(name):
     take = read_animation({"figure.glb": sample.glb}, Parameters(), Limits.none(), lambda n: memoryview(bytearray(n)))
     analysis = analyse(take, Parameters())
     labels = np.repeat(np.arange(len(truth.segments)) % 2, [end - start for _, start, end in truth.segments])
-    told = repeats(Repetitions.of(analysis), labels)
+    told = find_repetitions(RepetitionFinder.of(analysis), labels)
     right = [(mine, true) for mine, true in zip(told, truth.repeats, strict=True) if len(mine) == len(true)]
     assert len(right) >= 0.9 * len(told)
     misses = [abs(m.end - t) for mine, true in right for m, t in zip(mine, true, strict=True)]

@@ -3,9 +3,9 @@
 import base64
 
 import numpy as np
-from tests.formats.test_meshopt import literal
 
 from tests.formats.clips.making import chunks_of
+from tests.formats.gltf.test_meshopt import literal
 from tests.glb import Glb
 
 EXTENSION = "EXT_meshopt_compression"

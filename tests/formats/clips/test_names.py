@@ -3,7 +3,7 @@
 import pytest
 
 from caesura.core.errors import ParameterError
-from caesura.formats.clips.clip_names import numbered, safe
+from caesura.formats.clips.clip_names import number_repeated_names, safe_name
 from caesura.formats.clips.clip_options import ClipOptions
 
 
@@ -20,14 +20,14 @@ from caesura.formats.clips.clip_options import ClipOptions
 )
 def test_what_means_something_to_an_engine_is_left_out(name, expected):
     """Letters of any script, digits, dashes and underscores stay."""
-    assert safe(name) == expected
+    assert safe_name(name) == expected
 
 
 def test_names_are_numbered_by_motion_and_unique_in_any_case():
     """Two motions that differ in case alone share their numbers; names that are taken are passed over."""
     motions = [("walk", False), ("Walk", False), ("run", True), ("walk", False)]
-    assert numbered(motions, taken=["WALK_01"]) == ["walk_02", "Walk_03", "run_01-loop", "walk_04"]
-    assert numbered([("A", False)] * 100, taken=[])[-1] == "A_100"
+    assert number_repeated_names(motions, taken=["WALK_01"]) == ["walk_02", "Walk_03", "run_01-loop", "walk_04"]
+    assert number_repeated_names([("A", False)] * 100, taken=[])[-1] == "A_100"
 
 
 def test_options_are_read_back_from_their_canonical_text():

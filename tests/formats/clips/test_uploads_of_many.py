@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from tests.formats.test_pairing import mesh, skeleton
 
 from caesura.core.errors import CaesuraError
 from tests.formats.clips.making import clips_of, cut_at, names_of
 from tests.formats.opening import opened
 from tests.formats.test_bvh import ARM
+from tests.formats.test_mesh_and_motion import mesh, skeleton
 from tests.formats.test_zip import separate, zipped
 from tests.glb import moving_square
 

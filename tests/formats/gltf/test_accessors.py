@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from caesura.core.errors import CaesuraError, InvalidModel
 from caesura.core.limits import Limits
-from caesura.formats.gltf.document import Document
+from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.geometry.accessors import Accessors
 from tests.glb import Glb
 
@@ -79,7 +79,7 @@ def twin(model: Glb) -> list[list[float]]:
 
 
 def read(model: Glb) -> Accessors:
-    return Accessors(Document(memoryview(model.glb()), {}, Limits()))
+    return Accessors(GltfDocument(memoryview(model.glb()), {}, Limits()))
 
 
 @often

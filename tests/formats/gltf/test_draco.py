@@ -12,7 +12,7 @@ import pytest
 
 from caesura.core.errors import CaesuraError, InvalidModel, LimitExceeded
 from caesura.core.limits import Limits
-from caesura.formats.gltf.draco.header import promised
+from caesura.formats.gltf.draco.header import read_draco_counts
 from tests.formats.opening import opened
 from tests.glb import SQUARE, SQUARE_TRIANGLES, Glb, moving_square
 
@@ -161,7 +161,7 @@ def test_a_bomb_is_refused_by_its_header() -> None:
     """A few bytes that promise a billion triangles are never decoded."""
     billion = bytes([0x80, 0x80, 0x80, 0x80, 4])
     bomb = b"DRACO" + struct.pack("<BBBBH", 2, 2, 1, 0, 0) + billion * 2
-    assert promised(memoryview(bomb)) == (2**30, 2**30)
+    assert read_draco_counts(memoryview(bomb)) == (2**30, 2**30)
     with pytest.raises(InvalidModel, match="promises 1073741824 vertices") as refused:
         opened(compressed(bomb).glb())
     assert refused.value.code == "decompression-failed"
@@ -178,10 +178,10 @@ def test_metadata_before_the_geometry_is_passed_over() -> None:
     header = b"DRACO" + struct.pack("<BBBBH", 2, 2, 1, 0, 0x8000)
     inner = b"\x01" + b"\x01n" + b"\x02vv" + b"\x00"
     metadata = b"\x01\x07" + inner + b"\x00\x01" + b"\x03sub" + inner
-    assert promised(memoryview(header + metadata + b"\x02\x04")) == (4, 2)
+    assert read_draco_counts(memoryview(header + metadata + b"\x02\x04")) == (4, 2)
     for endless in (b"\xff" * 40, b"\x00" + b"\x00\x01" * 50, b"\x00\x00\xff\xff\xff\x7f"):
         with pytest.raises(ValueError, match=r"cut off|no end"):
-            promised(memoryview(header + endless))
+            read_draco_counts(memoryview(header + endless))
 
 
 def test_mutated_streams_never_crash() -> None:

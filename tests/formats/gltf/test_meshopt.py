@@ -12,9 +12,9 @@ import pytest
 
 from caesura.core.errors import CaesuraError, InvalidModel, LimitExceeded
 from caesura.core.limits import Limits
-from caesura.formats.gltf.json_object import Entry
-from caesura.formats.gltf.meshopt.view import decode
-from caesura.formats.kernels.meshopt_attributes import attributes
+from caesura.formats.gltf.json_object import JsonObject
+from caesura.formats.gltf.meshopt.view import decode_view
+from caesura.formats.kernels.meshopt_attributes import decode_attributes
 from tests.formats.opening import opened
 from tests.glb import SQUARE, Glb, moving_square
 
@@ -31,8 +31,8 @@ def streams(oracle: Path, node: Path, tmp_path_factory: pytest.TempPathFactory) 
     return [json.loads(line) for line in run.stdout.splitlines()]
 
 
-def _extension(stream: dict[str, Any]) -> Entry:
-    return Entry({"mode": stream["mode"], "filter": stream["filter"], "count": stream["count"],
+def _extension(stream: dict[str, Any]) -> JsonObject:
+    return JsonObject({"mode": stream["mode"], "filter": stream["filter"], "count": stream["count"],
                   "byteStride": stream["stride"]}, "/e")  # fmt: skip
 
 
@@ -41,7 +41,9 @@ def test_every_stream_is_decoded_as_its_library_does(streams: list[dict[str, Any
     assert len(streams) > 290
     for stream in streams:
         expected = np.frombuffer(base64.b64decode(stream["decoded"]), np.uint8)
-        actual = np.frombuffer(decode(_extension(stream), memoryview(base64.b64decode(stream["encoded"]))), np.uint8)
+        actual = np.frombuffer(
+            decode_view(_extension(stream), memoryview(base64.b64decode(stream["encoded"]))), np.uint8
+        )
         if stream["filter"] in ROUNDED:
             kind = "i1" if stream["stride"] == 4 else "<i2"
             assert np.abs(actual.view(kind).astype(int) - expected.view(kind)).max() <= 1, stream["filter"]
@@ -56,14 +58,14 @@ def test_broken_streams_end_in_an_error_of_ours(streams: list[dict[str, Any]]) -
         good = base64.b64decode(stream["encoded"])
         for cut in (good[:-1], good + b"\0", b"", good[:1]):
             with pytest.raises(InvalidModel) as refused:
-                decode(_extension(stream), memoryview(cut))
+                decode_view(_extension(stream), memoryview(cut))
             assert refused.value.code == "decompression-failed"
         for _ in range(5):
             data = bytearray(good)
             for place in random.integers(0, len(data), 3):
                 data[place] = random.integers(256)
             try:
-                size = len(decode(_extension(stream), memoryview(data)))
+                size = len(decode_view(_extension(stream), memoryview(data)))
             except CaesuraError as wrong:
                 assert wrong.code == "decompression-failed"  # noqa: PT017
             else:
@@ -86,7 +88,7 @@ def test_bytes_told_in_full_are_read(shape: tuple[int, int]) -> None:
     """Blocks of any length, without any library."""
     elements = np.random.default_rng(1).integers(0, 256, shape).astype(np.uint8)
     out = np.zeros(shape, np.uint8)
-    assert attributes(np.frombuffer(literal(elements), np.uint8), out)
+    assert decode_attributes(np.frombuffer(literal(elements), np.uint8), out)
     np.testing.assert_array_equal(out, elements)
 
 

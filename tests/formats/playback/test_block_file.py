@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from caesura.formats.playback.block_file import FRAMES_PER_BLOCK, MAGIC, block_file
+from caesura.formats.playback.block_file import FRAMES_PER_BLOCK, MAGIC, write_block_file
 
 
 def header_of(data: bytes) -> dict:
@@ -21,7 +21,7 @@ def test_every_part_lies_where_the_header_says_and_is_aligned(words: int) -> Non
     values = np.arange(frames * 3, dtype="<i2").reshape(frames, 3)
     arrays = {"a": np.arange(5, dtype="u1"), "b": np.arange(6, dtype="<u4").reshape(2, 3)}
     blocks = [values[:FRAMES_PER_BLOCK], values[FRAMES_PER_BLOCK:]]
-    data = b"".join(block_file({"word": "x" * words}, arrays, frames, 6, blocks))
+    data = b"".join(write_block_file({"word": "x" * words}, arrays, frames, 6, blocks))
     header = header_of(data)
     for name, array in arrays.items():
         entry = header["arrays"][name]
@@ -43,7 +43,7 @@ def test_a_file_is_written_block_by_block() -> None:
             drawn.append(number)
             yield np.zeros((32, 1), "u1")
 
-    pieces = block_file({}, {}, 32_000, 1, blocks())
+    pieces = write_block_file({}, {}, 32_000, 1, blocks())
     next(pieces)
     assert drawn == []
     next(pieces)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from caesura.formats.playback.decimation import lighter
+from caesura.formats.playback.decimation import decimate_mesh
 
 
 def sheet(n: int, height: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
@@ -18,7 +18,7 @@ def test_a_light_mesh_is_drawn_as_it_is() -> None:
     """Below the bound nothing is merged; only vertices of no triangle are left out."""
     place, triangles = sheet(10)
     place = np.concatenate([place, [[9, 9, 9]]]).astype(np.float32)
-    mesh = lighter(place[None], triangles, most=1000)
+    mesh = decimate_mesh(place[None], triangles, most=1000)
     assert np.array_equal(mesh.vertices, np.arange(100))
     assert np.array_equal(mesh.triangles, triangles)
 
@@ -26,7 +26,7 @@ def test_a_light_mesh_is_drawn_as_it_is() -> None:
 def test_a_heavy_mesh_is_drawn_with_as_many_triangles_as_allowed_and_no_more() -> None:
     """The bound holds, most of it is used, every triangle has three corners of its own, and the map is the file's."""
     place, triangles = sheet(120)
-    mesh = lighter(place[None], triangles, most=5000)
+    mesh = decimate_mesh(place[None], triangles, most=5000)
     assert 2500 < len(mesh.triangles) <= 5000
     assert (np.sort(mesh.triangles, axis=1)[:, :-1] != np.sort(mesh.triangles, axis=1)[:, 1:]).all()
     assert mesh.triangles.max() == len(mesh.vertices) - 1
@@ -39,7 +39,7 @@ def test_two_sheets_that_touch_in_one_pose_are_not_sewn_together() -> None:
     both = np.concatenate([triangles, triangles + len(lower)])
     touching = np.concatenate([lower, sheet(60)[0]])
     apart = np.concatenate([lower, sheet(60, height=2.0)[0]])
-    mesh = lighter(np.stack([touching, apart]), both, most=2000)
+    mesh = decimate_mesh(np.stack([touching, apart]), both, most=2000)
     is_upper = mesh.vertices[mesh.triangles] >= len(lower)
     assert (is_upper.all(axis=1) | ~is_upper.any(axis=1)).all()
     assert is_upper.any()

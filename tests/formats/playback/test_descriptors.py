@@ -9,7 +9,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse
 from caesura.formats.playback.playback_files import _patches
-from caesura.formats.playback.strain_blocks import strain_blocks
+from caesura.formats.playback.strain_blocks import write_strain_blocks
 from tests.animations import performing_bar
 from tests.formats.playback.test_play import unpacked
 
@@ -24,7 +24,7 @@ def test_the_chosen_descriptor_is_shown(name: str) -> None:
         assert shown is None
         return
     assert shown is not None
-    header, blocks = unpacked(b"".join(strain_blocks(animation, shown, analysis.strain_scale)))
+    header, blocks = unpacked(b"".join(write_strain_blocks(animation, shown, analysis.strain_scale)))
     found = np.frombuffer(blocks, "u1").reshape(60, header["patches"])
     assert header["patches"] > 64
     assert found.max() > 100
@@ -38,7 +38,7 @@ def test_what_is_shown_is_measured_without_the_threads_of_algebra() -> None:
     analysis = analyse(animation, parameters)
     shown = _patches(animation, analysis)
     with threadpool_limits(2):
-        blocks = strain_blocks(animation, shown, analysis.strain_scale)
+        blocks = write_strain_blocks(animation, shown, analysis.strain_scale)
         next(blocks)
         assert {library["num_threads"] for library in threadpool_info() if library["user_api"] == "blas"} == {1}
         blocks.close()

@@ -11,9 +11,9 @@ from caesura.core.animation import Animation, Take
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse
-from caesura.formats.playback.playback_files import playback
-from caesura.formats.playback.strain_blocks import patches, strain_blocks
-from caesura.formats.playback.vertex_blocks import LARGEST, shown_mesh, vertex_blocks
+from caesura.formats.playback.playback_files import make_playback
+from caesura.formats.playback.strain_blocks import choose_display_patches, write_strain_blocks
+from caesura.formats.playback.vertex_blocks import LARGEST, choose_display_mesh, write_vertex_blocks
 from caesura.formats.read import read_animation
 from caesura.samples.figures import figure
 
@@ -57,8 +57,8 @@ def stretched(frames: int, ratio: float = 0.5) -> Animation:
 def test_positions_come_back_within_half_a_step() -> None:
     """q stands for centre + half · q / 32767, on every axis and in every frame."""
     animation = stretched(70)
-    mesh = shown_mesh(animation)
-    header, blocks = unpacked(b"".join(vertex_blocks(animation, mesh, np.zeros(animation.vertex_count, int))))
+    mesh = choose_display_mesh(animation)
+    header, blocks = unpacked(b"".join(write_vertex_blocks(animation, mesh, np.zeros(animation.vertex_count, int))))
     quantized = np.frombuffer(blocks, "<i2").reshape(70, len(mesh.vertices), 3)
     places = np.array(header["centre"]) + header["half"] * quantized / LARGEST
     assert np.abs(places - animation.vertices(0, 70)[:, mesh.vertices]).max() <= header["half"] / LARGEST * 0.51
@@ -69,9 +69,9 @@ def test_positions_come_back_within_half_a_step() -> None:
 def test_strain_is_a_byte_of_what_counts_as_one(threads: int) -> None:
     """An even stretch by σ is ln σ on every patch; over the scale it stays at 255; threads change nothing."""
     animation = stretched(70)
-    shown = patches(animation.rest, animation.triangles, animation.frames, "log", scale_invariant=False)
+    shown = choose_display_patches(animation.rest, animation.triangles, animation.frames, "log", scale_invariant=False)
     scale = float(np.log(1.4))
-    header, blocks = unpacked(b"".join(strain_blocks(animation, shown, scale, threads=threads)))
+    header, blocks = unpacked(b"".join(write_strain_blocks(animation, shown, scale, threads=threads)))
     found = np.frombuffer(blocks, "u1").reshape(70, header["patches"])
     expected = np.minimum(np.log(1 + 0.5 * np.arange(70) / 69) / scale, 1) * 255
     assert np.abs(found - expected[:, None]).max() <= 0.51 + 1e-3
@@ -81,8 +81,8 @@ def test_strain_is_a_byte_of_what_counts_as_one(threads: int) -> None:
 def test_patches_grow_fewer_with_the_length() -> None:
     """The strain of a take of any sensible length stays below 64 MB."""
     animation = stretched(2)
-    few = patches(animation.rest, animation.triangles, 1_000_000, "log", scale_invariant=False)
-    many = patches(animation.rest, animation.triangles, 1000, "log", scale_invariant=False)
+    few = choose_display_patches(animation.rest, animation.triangles, 1_000_000, "log", scale_invariant=False)
+    many = choose_display_patches(animation.rest, animation.triangles, 1000, "log", scale_invariant=False)
     assert few.means.patches <= 67 < many.means.patches
 
 
@@ -90,7 +90,7 @@ def plain(data: bytes) -> tuple[Animation, bytes, bytes]:
     """The animation of a file, its plain copy, and its strain."""
     parts = {"model": data}
     animation = read_animation(parts, Parameters(), Limits(), scratch)
-    shown = playback(animation, analyse(animation))
+    shown = make_playback(animation, analyse(animation))
     return animation, b"".join(shown.model), b"".join(shown.strain or [])
 
 
@@ -150,7 +150,7 @@ def test_a_skeleton_without_a_mesh_is_shown_by_its_joints() -> None:
     data = without_meshes(figure("smooth").glb)
     parts = {"model": data}
     animation = read_animation(parts, Parameters(), Limits(), scratch)
-    shown = playback(animation, analyse(animation))
+    shown = make_playback(animation, analyse(animation))
     assert shown.document["skeleton"]
     assert shown.strain is None
     copy = b"".join(shown.model)

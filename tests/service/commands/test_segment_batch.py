@@ -13,7 +13,7 @@ from click.testing import CliRunner
 
 from caesura.samples.figures import figure
 from caesura.service.commands.cli import main
-from caesura.service.commands.files import targets
+from caesura.service.commands.files import output_paths
 from tests.conftest import unavailable
 from tests.installation import take_npz
 
@@ -154,7 +154,7 @@ def test_results_of_two_files_never_share_a_name(tmp_path):
     """Files of one name but for the suffix, even in another case, keep their suffixes."""
     files = [Path("/t/a.glb"), Path("/t/A.npz"), Path("/t/b.glb"), Path("/t/below/b.glb")]
     out = tmp_path / "out"
-    assert targets(files, out) == [out / "a.glb", out / "A.npz", out / "b", out / "below" / "b"]
+    assert output_paths(files, out) == [out / "a.glb", out / "A.npz", out / "b", out / "below" / "b"]
 
 
 def test_a_full_folder_for_temporary_files_is_said(takes):

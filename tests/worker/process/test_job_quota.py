@@ -8,8 +8,8 @@ import sys
 from caesura.worker.process.thread_count import available_threads
 
 MEMORY = """
-from caesura.worker.process.job_quota import Allowance
-allowance = Allowance(64 * 2**20, 60)
+from caesura.worker.process.job_quota import JobQuota
+allowance = JobQuota(64 * 2**20, 60)
 held = bytearray(32 * 2**20)
 try:
     more = bytearray(64 * 2**20)

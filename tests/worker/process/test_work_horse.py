@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from caesura.worker.process.work_horse import READY, Horse
+from caesura.worker.process.work_horse import READY, WorkHorse
 
 
 @pytest.fixture
@@ -19,9 +19,9 @@ def horse(tmp_path):
         (tmp_path / order).write_text(str(os.getpid()))
         return order != "last"
 
-    horse = Horse((tmp_path / "prepared").touch, work)
+    horse = WorkHorse((tmp_path / "prepared").touch, work)
     yield horse
-    horse.dismiss()
+    horse.close()
 
 
 def test_it_is_prepared_and_does_one_job_after_the_other(horse, tmp_path):
@@ -54,6 +54,6 @@ def test_a_killed_one_is_told_as_killed(horse):
 
 def test_let_go_it_ends(tmp_path):
     """Without an order it waits; when nobody can give it one any more, it ends."""
-    idle = Horse(lambda: None, lambda _: True)
-    idle.dismiss()
+    idle = WorkHorse(lambda: None, lambda _: True)
+    idle.close()
     assert os.waitpid(idle.pid, 0)[1] == os.EX_OK

@@ -8,8 +8,8 @@ from redis.exceptions import ConnectionError as RedisAway
 from redis.exceptions import OutOfMemoryError
 from rq.timeouts import JobTimeoutException
 
-from caesura.core.errors import InvalidModel, from_problem
-from caesura.worker.queue.attempt import carry_out
+from caesura.core.errors import InvalidModel, error_from_problem
+from caesura.worker.queue.attempt import run_attempt
 from caesura.worker.queue.queues import JobTimer, TimeLimit
 
 
@@ -26,7 +26,7 @@ def ending_with(idle, queued, error):
         attempt.progress("strain", 0.5)
         raise error
 
-    carry_out(idle.jobs, queued.id, queued.token, work)
+    run_attempt(idle.jobs, queued.id, queued.token, work)
     return idle.records.segmentations.one(queued.id)
 
 
@@ -36,7 +36,7 @@ def test_a_refusal_is_the_answer(idle, queued):
     failed = ending_with(idle, queued, error)
     assert failed.status == "failed"
     assert failed.settled
-    assert str(from_problem(failed.problem)) == str(error)
+    assert str(error_from_problem(failed.problem)) == str(error)
 
 
 @pytest.mark.parametrize(("error", "code"), [(MemoryError(), "out-of-memory"), (TimeLimit(), "out-of-time")])
@@ -59,7 +59,7 @@ def test_no_handler_takes_the_time_limit_for_a_fault_of_the_file(idle, queued):
             raise InvalidModel("malformed-shape", "The file is broken.") from fault
 
     with JobTimer(1, JobTimeoutException):
-        carry_out(idle.jobs, queued.id, queued.token, work)
+        run_attempt(idle.jobs, queued.id, queued.token, work)
     failed = idle.records.segmentations.one(queued.id)
     assert (failed.status, failed.problem["code"], failed.settled) == ("failed", "out-of-time", False)
 
@@ -76,7 +76,7 @@ def test_the_time_limit_while_another_end_is_written_is_told(idle, queued, monke
         raise TimeLimit
 
     monkeypatch.setattr(idle.records.attempts, "fail", strike)
-    carry_out(idle.jobs, queued.id, queued.token, work)
+    run_attempt(idle.jobs, queued.id, queued.token, work)
     failed = idle.records.segmentations.one(queued.id)
     assert (failed.status, failed.problem["code"]) == ("failed", "out-of-time")
 
@@ -114,7 +114,7 @@ def test_a_cancelled_attempt_stops_at_one_of_its_next_words(idle, queued):
             stopped.append(True)
         raise AssertionError("not reached")
 
-    carry_out(idle.jobs, queued.id, queued.token, work)
+    run_attempt(idle.jobs, queued.id, queued.token, work)
     assert stopped
     assert idle.records.segmentations.one(queued.id).status == "cancelled"
 
@@ -133,7 +133,7 @@ def test_progress_never_goes_back_within_a_stage(idle, queued):
         attempt.progress("cut", 0.2)
         idle.until(queued.id, lambda record: record.fraction == 0.2)
 
-    carry_out(idle.jobs, queued.id, queued.token, work)
+    run_attempt(idle.jobs, queued.id, queued.token, work)
     assert idle.records.segmentations.one(queued.id).status == "running"
 
 
@@ -148,7 +148,7 @@ def test_the_newest_word_is_told_and_work_does_not_wait_for_it(idle, queued):
         idle.until(queued.id, lambda record: (record.stage, record.fraction) == ("energy", 0.5))
         assert idle.redis.info("commandstats")["cmdstat_exec"]["calls"] - before < 10
 
-    carry_out(idle.jobs, queued.id, queued.token, work)
+    run_attempt(idle.jobs, queued.id, queued.token, work)
 
 
 def test_a_word_that_cannot_be_told_ends_the_attempt_as_a_fault_of_the_machine(idle, queued):
@@ -164,5 +164,5 @@ def test_a_word_that_cannot_be_told_ends_the_attempt_as_a_fault_of_the_machine(i
             idle.redis.config_set("maxmemory", 0)
 
     with pytest.raises(OutOfMemoryError):
-        carry_out(idle.jobs, queued.id, queued.token, work)
+        run_attempt(idle.jobs, queued.id, queued.token, work)
     assert idle.records.segmentations.one(queued.id).attempt == 2

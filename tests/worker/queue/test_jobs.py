@@ -71,7 +71,7 @@ def test_a_deleted_segmentation_leaves_nothing(idle, take):
     record = idle.submit(idle.upload(take))
     idle.jobs.delete(record.id)
     assert not [key for key in idle.redis.scan_iter() if record.id.encode() in key]
-    assert not idle.redis.smembers(redis_keys.LIVE_KEY)
+    assert not idle.redis.smembers(redis_keys.LIVE_SEGMENTATIONS_KEY)
     assert idle.jobs.queues.depths() == {"analyse": 0, "cut": 0}
 
 

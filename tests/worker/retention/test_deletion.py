@@ -9,7 +9,7 @@ import pytest
 from caesura.worker.queue.auxiliary_jobs import submit_export
 from caesura.worker.records import redis_keys
 from caesura.worker.records.segmentations import AnimationDeleted
-from caesura.worker.retention.deletion import forget_animation, forget_segmentation
+from caesura.worker.retention.deletion import delete_animation, delete_segmentation
 from caesura.worker.retention.retention import sweep, sweep_by_clock
 
 
@@ -22,7 +22,7 @@ def left(place, *identifiers):
 def test_nothing_is_queued_of_what_has_gone(idle, take):
     """The file was deleted between its upload and its order: that is said, and no record is kept."""
     animation = idle.upload(take)
-    forget_animation(idle.jobs, idle.blobs, animation)
+    delete_animation(idle.jobs, idle.blobs, animation)
     with pytest.raises(AnimationDeleted) as refused:
         idle.submit(animation)
     assert refused.value.code == "animation-deleted"
@@ -41,7 +41,7 @@ def test_what_is_queued_while_its_animation_is_deleted_goes_with_it(idle, take, 
         return delete(record)
 
     monkeypatch.setattr(idle.records.animations, "delete", delayed)
-    forget_animation(idle.jobs, idle.blobs, animation)
+    delete_animation(idle.jobs, idle.blobs, animation)
     assert late
     assert left(idle, animation.id, late[0].id) == ([], [])
     assert not idle.records.segmentations.live()
@@ -65,7 +65,7 @@ def test_what_is_queued_while_its_animation_is_swept_is_told(idle, take, monkeyp
 def test_no_file_is_made_of_what_has_gone(idle, take):
     """Asked for in the moment of the delete: it is not found, and nothing is remembered of it."""
     record = idle.submit(idle.upload(take))
-    forget_segmentation(idle.jobs, idle.blobs, record.id)
+    delete_segmentation(idle.jobs, idle.blobs, record.id)
     assert submit_export(idle.jobs, record.id, "npz").problem["code"] == "not-found"
     assert left(idle, record.id)[0] == []
 
@@ -85,12 +85,12 @@ def test_deleting_and_asking_at_once_leaves_all_or_nothing(idle, take):
     for thread in asking:
         thread.start()
     for _ in range(10):
-        forget_animation(idle.jobs, idle.blobs, animation)
+        delete_animation(idle.jobs, idle.blobs, animation)
         idle.records.animations.add(animation)
     over.set()
     for thread in asking:
         thread.join()
-    forget_animation(idle.jobs, idle.blobs, animation)
+    delete_animation(idle.jobs, idle.blobs, animation)
     assert left(idle, animation.id, idle.wanted(animation, motions=2).id)[0] == []
     assert idle.jobs.queues.depths() == {"analyse": 0, "cut": 0}
 
@@ -106,7 +106,7 @@ def test_names_of_what_was_deleted_leave_redis_with_the_next_sweep(idle, take):
     named = animation.model_copy(update={"name": "secret-dance"})
     idle.redis.set(redis_keys.animation_key(animation.id), named.model_dump_json())
     assert idle.redis.delete(redis_keys.DELETED_KEY) == 0
-    forget_animation(idle.jobs, idle.blobs, named)
+    delete_animation(idle.jobs, idle.blobs, named)
     idle.redis.execute_command("WAITAOF", 1, 0, 2000)
     assert b"secret-dance" in written(idle)
     sweep_by_clock(idle.jobs, idle.blobs, 1e9, 1e9, time.time())
@@ -119,7 +119,7 @@ def test_names_of_what_was_deleted_leave_redis_with_the_next_sweep(idle, take):
 
 def test_a_redis_that_may_not_be_told_to_rewrite_is_asked_again(idle, take, caplog):
     """A managed one, or one whose keeper forbids the command: the sweep goes on, says so, and asks the next time."""
-    forget_animation(idle.jobs, idle.blobs, idle.upload(take))
+    delete_animation(idle.jobs, idle.blobs, idle.upload(take))
     idle.redis.execute_command("ACL", "SETUSER", "default", "-bgrewriteaof")
     sweep_by_clock(idle.jobs, idle.blobs, 1e9, 1e9, time.time())
     assert "names of what was deleted stay" in caplog.text

@@ -2,7 +2,7 @@
 
 import pytest
 
-from caesura.worker.queue.auxiliary_jobs import sweep_sometimes
+from caesura.worker.queue.auxiliary_jobs import submit_sweep_if_due
 from caesura.worker.records import redis_keys, schema
 from caesura.worker.retention.retention import sweep
 
@@ -32,7 +32,7 @@ def test_what_is_in_use_stays(place, done):
 def test_an_unused_upload_goes_before_its_results(place, done, take):
     """Its result is still read; a new cut needs the file again; and the same bytes may come again."""
     animation, cut = done
-    place.redis.zadd(redis_keys.USED_KEY, {animation.id: 0})
+    place.redis.zadd(redis_keys.LAST_USED_KEY, {animation.id: 0})
     sweep(place.jobs, place.blobs, 3600, LONG)
     assert files(place, *done) == []
     assert place.records.segmentations.result(cut.id)[0] is not None
@@ -47,7 +47,7 @@ def test_an_unused_upload_goes_before_its_results(place, done, take):
 def test_use_is_what_counts(place, done):
     """To ask for another cut is a use, and what is queued keeps its upload."""
     animation, _ = done
-    place.redis.zadd(redis_keys.USED_KEY, {animation.id: 0})
+    place.redis.zadd(redis_keys.LAST_USED_KEY, {animation.id: 0})
     assert place.ended(place.submit(animation, motions=2).id).status == "done"
     sweep(place.jobs, place.blobs, 3600, LONG)
     assert len(files(place, *done)) == 4
@@ -56,7 +56,7 @@ def test_use_is_what_counts(place, done):
 def test_an_old_result_goes_and_the_record_with_the_last_one(place, done):
     """Nothing of it stays: no blob, no key."""
     animation, cut = done
-    place.redis.zadd(redis_keys.USED_KEY, {animation.id: 0})
+    place.redis.zadd(redis_keys.LAST_USED_KEY, {animation.id: 0})
     kept = place.records.segmentations.one(cut.id).with_(updated=0.0)
     place.redis.set(redis_keys.segmentation_key(cut.id), kept.model_dump_json())
     sweep(place.jobs, place.blobs, 3600, LONG / 1e3)
@@ -66,6 +66,6 @@ def test_an_old_result_goes_and_the_record_with_the_last_one(place, done):
 
 def test_a_sweep_is_queued_once_an_hour(idle):
     """However many processes ask."""
-    sweep_sometimes(idle.jobs)
-    sweep_sometimes(idle.jobs)
+    submit_sweep_if_due(idle.jobs)
+    submit_sweep_if_due(idle.jobs)
     assert idle.jobs.queues.depths()["cut"] == 1

@@ -6,7 +6,7 @@ import pytest
 
 from caesura.worker.records.schema import Part
 from caesura.worker.store.blobs import PIECE_BYTES, BlobMissing, Blobs
-from caesura.worker.store.memory_maps import mapped_parts, scratch_space
+from caesura.worker.store.memory_maps import map_parts, scratch_space
 from tests.object_store import BUCKET, ObjectStore
 
 
@@ -77,7 +77,7 @@ def test_parts_are_mapped_and_their_bytes_granted(blobs):
     """Each part is a read-only buffer, an empty one too; what is mapped is told to the allowance."""
     granted = []
     parts = [Part(name=str(i), key=blobs.put(c, "uploads"), bytes=len(c)) for i, c in enumerate((b"motion", b""))]
-    with mapped_parts(blobs, parts, granted.append) as mapped:
+    with map_parts(blobs, parts, granted.append) as mapped:
         assert [bytes(mapped["0"]), bytes(mapped["1"])] == [b"motion", b""]
         assert mapped["0"].readonly
     assert granted == [6]

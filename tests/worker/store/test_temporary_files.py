@@ -11,17 +11,17 @@ import pytest
 from caesura.worker.queue.auxiliary_jobs import submit_export
 from caesura.worker.records import redis_keys
 from caesura.worker.records.schema import AnalysisRecord, ExportRecord
-from caesura.worker.retention.deletion import forget_segmentation
-from caesura.worker.retention.orphaned_blobs import forget_orphans
+from caesura.worker.retention.deletion import delete_segmentation
+from caesura.worker.retention.orphaned_blobs import delete_orphaned_blobs
 from caesura.worker.retention.retention import sweep
-from caesura.worker.store.temporary_files import aside, clear, path_of
+from caesura.worker.store.temporary_files import delete_abandoned_files, file_path, temporary_file
 
 HOLD = """
 import sys, time
 from pathlib import Path
-from caesura.worker.retention.deletion import forget_segmentation
-from caesura.worker.store.temporary_files import held_file
-file = held_file(Path(sys.argv[1]))
+from caesura.worker.retention.deletion import delete_segmentation
+from caesura.worker.store.temporary_files import locked_temporary_file
+file = locked_temporary_file(Path(sys.argv[1]))
 file.write(b"half of it")
 print("held", flush=True)
 time.sleep(60)
@@ -34,24 +34,24 @@ def test_a_file_is_cleared_once_its_writer_was_killed(tmp_path):
     writer.stdout.readline()
     for path in tmp_path.iterdir():
         os.utime(path, (0, 0))
-    assert clear(tmp_path) == 0
+    assert delete_abandoned_files(tmp_path) == 0
     writer.send_signal(signal.SIGKILL)
     writer.wait()
     writer.stdout.close()
-    assert clear(tmp_path) == 1
+    assert delete_abandoned_files(tmp_path) == 1
     assert not list(tmp_path.iterdir())
 
 
 def test_a_file_that_was_moved_to_its_place_stays(tmp_path):
     """It is whole by then; one that was not is gone."""
-    with aside(tmp_path) as kept:
+    with temporary_file(tmp_path) as kept:
         kept.write(b"whole")
-        path_of(kept).rename(tmp_path / "kept")
-    with aside(tmp_path) as broken:
+        file_path(kept).rename(tmp_path / "kept")
+    with temporary_file(tmp_path) as broken:
         broken.write(b"half")
     assert [path.name for path in tmp_path.iterdir()] == ["kept"]
-    assert clear(tmp_path) == 0
-    assert clear(tmp_path / "not-there") == 0
+    assert delete_abandoned_files(tmp_path) == 0
+    assert delete_abandoned_files(tmp_path / "not-there") == 0
 
 
 def test_a_blob_on_its_way_is_in_no_list(tmp_path, idle):
@@ -72,20 +72,20 @@ def test_a_blob_that_nothing_points_to_goes_at_the_second_look(idle, take):
     """The first look only notes it: it may be a running job's. What is pointed to stays, and is counted."""
     animation = idle.upload(take)
     lost = idle.blobs.put(b"killed before it was told", "analyses")
-    assert forget_orphans(idle.records, idle.blobs, 0.0) == {"uploads": len(take), "analyses": 25}
-    assert forget_orphans(idle.records, idle.blobs, 3600.0)["analyses"] == 25
-    assert forget_orphans(idle.records, idle.blobs, 0.0) == {"uploads": len(take)}
+    assert delete_orphaned_blobs(idle.records, idle.blobs, 0.0) == {"uploads": len(take), "analyses": 25}
+    assert delete_orphaned_blobs(idle.records, idle.blobs, 3600.0)["analyses"] == 25
+    assert delete_orphaned_blobs(idle.records, idle.blobs, 0.0) == {"uploads": len(take)}
     assert [key for key, _ in idle.blobs.all()] == [animation.parts[0].key]
-    assert lost.encode() not in idle.redis.hkeys(redis_keys.DOUBTED_KEY)
+    assert lost.encode() not in idle.redis.hkeys(redis_keys.ORPHAN_CANDIDATES_KEY)
 
 
 def test_a_clock_that_jumps_loses_no_blob(idle):
     """Forward by a year between being kept and the first look, or back: one look never deletes."""
     fresh = idle.blobs.put(b"a running job's", "analyses")
     os.utime(idle.settings.data_dir / "blobs" / fresh, (0, 0))
-    forget_orphans(idle.records, idle.blobs, 3600.0)
-    idle.redis.hset(redis_keys.DOUBTED_KEY, fresh, repr(time.time() + 1e7))
-    forget_orphans(idle.records, idle.blobs, 3600.0)
+    delete_orphaned_blobs(idle.records, idle.blobs, 3600.0)
+    idle.redis.hset(redis_keys.ORPHAN_CANDIDATES_KEY, fresh, repr(time.time() + 1e7))
+    delete_orphaned_blobs(idle.records, idle.blobs, 3600.0)
     assert [key for key, _ in idle.blobs.all()] == [fresh]
 
 
@@ -129,6 +129,6 @@ def test_a_file_made_of_what_was_deleted_meanwhile_is_kept_nowhere(idle, take):
     made = ExportRecord(key="exports/x")
     submit_export(idle.jobs, record.id, "npz")
     assert idle.records.exports.write(record.id, "npz", made)
-    forget_segmentation(idle.jobs, idle.blobs, record.id)
+    delete_segmentation(idle.jobs, idle.blobs, record.id)
     assert not idle.records.exports.write(record.id, "npz", made)
     assert idle.records.exports.one(record.id, "npz") is None

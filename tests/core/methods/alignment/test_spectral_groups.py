@@ -5,8 +5,8 @@ import pytest
 
 from caesura.core.agreement import frame_accuracy
 from caesura.core.methods.alignment.frame_kernel import frame_kernel
-from caesura.core.methods.alignment.short_runs import without_short_runs
-from caesura.core.methods.alignment.spectral_clustering import spectral_groups
+from caesura.core.methods.alignment.short_runs import remove_short_runs
+from caesura.core.methods.alignment.spectral_clustering import cluster_spectrally
 
 
 @pytest.mark.parametrize("size", [40, 400])
@@ -19,15 +19,15 @@ def test_rings_are_told_apart(size):
     values = np.concatenate([rings, random.normal(0, 0.2, (size, 2))])
     distance = np.linalg.norm(values[:, None] - values[None], axis=2)
     kernel = np.exp(-(distance**2))
-    assert frame_accuracy(spectral_groups(kernel, 3, seed=0), np.repeat([0, 1, 2], size)) == 1
+    assert frame_accuracy(cluster_spectrally(kernel, 3, seed=0), np.repeat([0, 1, 2], size)) == 1
 
 
 def test_more_groups_than_differ_are_not_made_up():
     """Two poses held: two groups, whatever was asked for."""
     kernel = frame_kernel(np.repeat([[0.0], [5.0]], 10, axis=0))
-    assert len(np.unique(spectral_groups(kernel, 4, seed=0))) == 2
-    assert spectral_groups(kernel, 1, seed=0).tolist() == [0] * 20
-    assert spectral_groups(np.ones((1, 1)), 3, seed=0).tolist() == [0]
+    assert len(np.unique(cluster_spectrally(kernel, 4, seed=0))) == 2
+    assert cluster_spectrally(kernel, 1, seed=0).tolist() == [0] * 20
+    assert cluster_spectrally(np.ones((1, 1)), 3, seed=0).tolist() == [0]
 
 
 @pytest.mark.parametrize(
@@ -43,5 +43,5 @@ def test_more_groups_than_differ_are_not_made_up():
 )
 def test_short_runs_go_to_their_neighbours(before, after):
     """The shortest first; at an end whole, in the middle half to either side, the odd one to the left."""
-    found = without_short_runs(np.array([ord(c) for c in before]), 4)
+    found = remove_short_runs(np.array([ord(c) for c in before]), 4)
     assert "".join(map(chr, found)) == after
