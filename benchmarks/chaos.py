@@ -1,8 +1,9 @@
 """What is lost when everything is killed: nothing, or this command says what.
 
 `python -m benchmarks.chaos` has 8 clients send 200 takes twice: to a service that is left in peace, and to one whose
-work-horses, workers, Redis, web process and supervisor get SIGKILL at random (seeded). Then it looks for what is lost,
-stuck, done twice, different, or left behind. Writes docs/operations.md; the exit status is 1 where anything is wrong.
+work-horses, workers, Redis, web process and supervisor get SIGKILL at random (seeded), and whose clock jumps. Then it
+looks for what is lost, stuck, done twice, different, or left behind. Writes docs/operations.md; the exit status is 1
+where anything is wrong.
 """
 
 import argparse
@@ -31,7 +32,7 @@ CLIENTS = 8
 LONGEST_SECONDS = 900.0
 BETWEEN_SECONDS = (0.3, 2.5)
 MOST_KILLS = 80
-WEIGHTS = {"work-horse": 10, "worker": 4, "web": 4, "Redis": 3, "pool": 2, "supervisor": 2}
+WEIGHTS = {"work-horse": 10, "worker": 4, "web": 4, "Redis": 3, "pool": 2, "supervisor": 2, "clock": 4}
 
 
 def main() -> None:
@@ -54,7 +55,8 @@ def main() -> None:
         "| under fire | |",
         "|---|---|",
         f"| takes, clients, seed | {chosen.jobs}, {CLIENTS}, {chosen.seed} |",
-        f"| killed | {', '.join(f'{count} {name}' for name, count in kills.most_common())} |",
+        f"| killed | {', '.join(f'{count} {name}' for name, count in kills.most_common() if name != 'clock')} |",
+        f"| times the clock jumped, by hours or weeks | {kills['clock']} |",
         *(f"| {name} | {count} |" for name, count in sorted(fire.tally.items())),
         *found.rows(),
         f"| in peace, under fire | {quiet_seconds:.0f} s, {seconds:.0f} s |",
@@ -101,7 +103,12 @@ def _fire(house: House, chance: random.Random, running: list["Future[Seen]"]) ->
         there = {name: pids for name, pids in house.parts().items() if pids and name in WEIGHTS}
         if "worker" not in there or kills.total() >= MOST_KILLS:
             continue
+        there["clock"] = []
         name = chance.choices(list(there), [WEIGHTS[name] for name in there])[0]
+        if name == "clock":
+            house.clock.jump(house.jobs().redis, chance)
+            kills[name] += 1
+            continue
         with suppress(ProcessLookupError):
             os.kill(chance.choice(there[name]), signal.SIGKILL)
             kills[name] += 1

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import httpx
 
+from benchmarks.chaos_clock import JumpingClock
 from benchmarks.processes import PROC
 from worker.blobs import Blobs
 from worker.jobs import Jobs
@@ -32,6 +33,7 @@ class House:
         self.folder = folder
         self.settings = WorkerSettings(data_dir=folder, redis_url="", secret=SECRET)
         self.url = f"http://127.0.0.1:{_free_port()}"
+        self.clock = JumpingClock(folder)
         self.lives = 0
         self._process: subprocess.Popen[bytes] | None = None
 
@@ -40,7 +42,7 @@ class House:
         if self._process is not None and self._process.poll() is None:
             return
         kept = {name: value for name, value in os.environ.items() if name != "REDIS_URL"}
-        environment = {**kept, "CAESURA_DATA_DIR": str(self.folder), "CAESURA_SECRET": SECRET}
+        environment = {**kept, "CAESURA_DATA_DIR": str(self.folder), "CAESURA_SECRET": SECRET, **self.clock.environment}
         with (self.folder / "log").open("ab") as log:
             self._process = subprocess.Popen(
                 [sys.executable, "-m", "service.cli", "serve", "--port", self.url.rpartition(":")[2]],
