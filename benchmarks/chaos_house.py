@@ -21,7 +21,7 @@ from worker.blobs import Blobs
 from worker.jobs import Jobs
 from worker.settings import WorkerSettings
 
-READY_SECONDS = 90
+READY_SECONDS = 300  # the first start compiles the kernels
 STOP_SECONDS = 60
 SECRET = "the same ids in every run"
 
