@@ -12,7 +12,8 @@ from typing import Any
 
 OFFSET = Path(os.environ["JUMPING_CLOCK"])
 
-system_time, system_datetime = time.time, datetime.datetime
+system_time = time.time
+SystemDatetime = datetime.datetime
 
 
 def jumped_time() -> float:
@@ -22,16 +23,16 @@ def jumped_time() -> float:
 
 class _IsDatetime(type):
     def __instancecheck__(cls, value: object) -> bool:
-        return isinstance(value, system_datetime)
+        return isinstance(value, SystemDatetime)
 
 
-class JumpedDatetime(system_datetime, metaclass=_IsDatetime):
+class JumpedDatetime(SystemDatetime, metaclass=_IsDatetime):
     """`datetime` by the same clock."""
 
     @classmethod
     def now(cls, tz: datetime.tzinfo | None = None) -> Any:
         """The time now."""
-        return system_datetime.fromtimestamp(jumped_time(), tz)
+        return SystemDatetime.fromtimestamp(jumped_time(), tz)
 
 
 time.time = jumped_time
