@@ -21,7 +21,7 @@ def test_a_thinned_curve_keeps_its_peaks_and_its_order(answer) -> None:
 
 def test_every_stage_has_words(answer, checkout: Path) -> None:
     """What the worker and the method tell of themselves, and nothing that they never tell, is put to a person."""
-    known = answer("import { STAGES } from 'VIEWER/start/stages.js'; console.log(JSON.stringify(Object.keys(STAGES)));")
+    known = answer("import { STAGES } from 'VIEWER/start/progress.js'; console.log(JSON.stringify(Object.keys(STAGES)));")
     sources = [
         path.read_text(encoding="utf-8") for part in ("core", "worker") for path in checkout.glob(f"{part}/**/*.py")
     ]
@@ -63,7 +63,7 @@ def test_two_fingers_keep_the_frames_under_them(answer) -> None:
     """Apart they zoom in, aside they move; one finger alone, or two on the same place, change nothing; of three, the
     outer ones count."""
     on, seen = answer("""
-        import { Pinch } from 'VIEWER/timeline/pinch.js';
+        import { Pinch } from 'VIEWER/timeline/pointer.js';
         import { Span } from 'VIEWER/timeline/visible_range.js';
         const span = new Span(1000);
         const pinch = new Pinch(span);

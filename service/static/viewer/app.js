@@ -1,19 +1,23 @@
-// The page: which of its four faces it shows (start, waiting, refused, result), and what leads from one to another.
+// The page: what leads from one of its views to another, and every control of a result, wired once.
 
-import { frameOfAddress, remember, resultOfAddress, revisionOfAddress } from './address.js';
+import { face, frameOfAddress, refuse, remember, resultOfAddress, revisionOfAddress } from './views.js';
 import * as api from './service/api.js';
-import { controls, note, offerMethods } from './panels/segmentation_form.js';
+import { controls, note, offerMethods, recut } from './panels/segmentation_form.js';
 import { $, announce } from './dom.js';
-import { face, refuse } from './views.js';
-import { drawHeatKey } from './figure/heat.js';
 import { beginProgress, progress, statusProgress } from './start/progress.js';
 import { showRecent } from './start/recent_animations.js';
 import { Result } from './result.js';
 import { about, count } from './number_format.js';
 import { acceptFiles } from './start/file_drop.js';
-import { recut, openRevision } from './panels/variants.js';
 import { finished } from './service/job_status.js';
-import { wire } from './wiring.js';
+import { editBar } from './editing/edit_toolbar.js';
+import { help, keyboard } from './keyboard.js';
+import { reviewTools } from './panels/cut_review.js';
+import { downloads } from './panels/export_menu.js';
+import { openRevision, revisionList, showRevisions } from './panels/revision_list.js';
+import { segmentList } from './panels/segment_list.js';
+import { tabs } from './roving_focus.js';
+import { playback, view } from './timeline/navigation.js';
 
 let shown = null; // the Result on screen
 let task = new AbortController(); // what the page is busy with; a newer one ends it
@@ -123,12 +127,43 @@ function start() {
   showRecent(openAnimation);
 }
 
+/** Wire every control of the result. Answers a function to call whenever what is shown has changed. */
+function wire() {
+  playback(onScreen);
+  view(onScreen);
+  const showTab = tabs($('tabs'));
+  segmentList();
+  revisionList();
+  reviewTools(() => { showTab('tab-review'); return onScreen()?.review; });
+  keyboard(onScreen, help());
+  const editor = () => onScreen()?.editor;
+  const open = (number, dropping) => openRevision(shown, number, dropping);
+  const showEdits = editBar(editor, { loadTheirs: () => open(editor().saving.theirs, true) });
+  const showLinks = downloads(() => {
+    const { saving } = editor();
+    return { id: shown.document.id, name: shown.status.name, revision: saving.shown, dirty: saving.open, keep: () => saving.flush() };
+  });
+  addEventListener('beforeunload', (event) => { if (editor()?.saving.open) event.preventDefault(); });
+  addEventListener('visibilitychange', () => { if (document.hidden && editor()?.saving.kind === 'waiting') editor().saving.flush().catch(() => {}); });
+  let listed = '';
+  return () => {
+    if (!editor()) return;
+    showEdits();
+    showLinks();
+    const { saving } = editor();
+    const state = `${shown.document.id} ${saving.shown} ${saving.newest}`;
+    if (state === listed) return;
+    listed = state;
+    showRevisions(shown.document.id, saving.shown, open);
+    if (location.search && saving.shown === saving.newest) history.replaceState(null, '', location.pathname + location.hash);
+  };
+}
+
 const onScreen = () => (document.body.dataset.view === 'result' ? shown : null);
-const changed = wire({ shown: onScreen, openRevision: (...asked) => openRevision(shown, ...asked) });
+const changed = wire();
 controls({ recut: (changes) => recut(shown, changes, begin()), current: () => shown.document });
 acceptFiles(openFiles);
 addEventListener('popstate', route);
 addEventListener('hashchange', () => { const frame = frameOfAddress(); if (frame !== null) shown?.clock.seek(frame); });
-drawHeatKey();
 offerMethods();
 route();

@@ -1,7 +1,6 @@
-// The page by keyboard alone. A key that types into a field is the field's.
+// The page by keyboard alone, and the list of its keys. A key that types into a field is the field's.
 
-import { $ } from './dom.js';
-import { isPointed } from './pointed.js';
+import { $, make } from './dom.js';
 import { jump } from './timeline/navigation.js';
 
 /** `shown()` is the result on screen, or null; `askHelp` opens the list of keys. */
@@ -74,3 +73,39 @@ function history(event, shown) {
   event.preventDefault();
   if (key === 'y' || event.shiftKey) shown().editor.redo(); else shown().editor.undo();
 }
+
+const KEYS = [
+  ['Play', [
+    ['Space', 'play or pause'], ['← →', 'a frame back or on; with Shift ten'], ['Home End', 'to the first or last frame'],
+    [', .', 'the segment before or after'], ['L', 'repeat the segment'],
+  ]],
+  ['Cuts', [
+    ['[ ]', 'select the cut before or after'], ['← →', 'move the selected cut a frame; with Shift ten'],
+    ['M Del', 'merge over it; with Shift, as the motion after it'], ['Esc', 'let go of it'], ['S', 'split at the playhead'],
+  ]],
+  ['Segments', [['R', 'rename the motion'], ['O', 'its clip loops'], ['X', 'discard it'], ['Ctrl Z', 'undo'], ['Ctrl Shift Z', 'redo']]],
+  ['Review', [['N', 'the next doubtful cut'], ['P', 'play a second around it'], ['C', 'checked, and on']]],
+  ['View', [['+ −', 'zoom in or out'], ['0', 'the whole take'], ['F', 'the whole figure'], ['?', 'these keys']]],
+];
+
+/** Wire the overlay once; answers a function that opens it. */
+export function help() {
+  const dialog = $('help');
+  $('help-keys').replaceChildren(...KEYS.map(([title, keys]) => make('section', {}, make('h3', {}, title),
+    make('dl', {}, ...keys.flatMap(([key, what]) => [
+      make('dt', {}, ...key.split(' ').map((one) => make('kbd', {}, one))), make('dd', {}, what)])))));
+  const open = () => dialog.open || dialog.showModal();
+  $('ask-help').addEventListener('click', open);
+  dialog.addEventListener('click', (event) => { if (event.target === dialog) dialog.close(); });
+  return open;
+}
+
+let byPointer = false;
+let pointed = null;
+
+addEventListener('pointerdown', () => { byPointer = true; }, true);
+addEventListener('keydown', () => { byPointer = false; }, true);
+addEventListener('focusin', ({ target }) => { pointed = byPointer ? target : null; });
+
+/** Whether a pointer gave the focus to an element. */
+export const isPointed = (element) => element === pointed;

@@ -1,4 +1,6 @@
-// Numbers as people read them.
+// Numbers as people read them: lengths of time, counts, and frames counted from 0 or from 1.
+
+import { store, stored } from './local_storage.js';
 
 const GROUPED = new Intl.NumberFormat('en-US');
 const JUST = 45; // seconds that are still "just now"
@@ -35,4 +37,39 @@ export function ago(created) {
   if (seconds < JUST) return 'just now';
   const [unit, size] = STEPS.findLast(([, length]) => seconds >= length) || STEPS[0];
   return AGO.format(-Math.max(1, Math.round(seconds / size)), unit);
+}
+
+const KEY = 'caesura.frames-from';
+
+let first = stored(KEY) === 1 ? 1 : 0;
+const listeners = new Set();
+
+/** 0, or 1 where frames count from 1 and an interval names its last frame. */
+export const countsFrom = () => first;
+
+export function countFrom(number) {
+  first = number;
+  store(KEY, number);
+  for (const listener of listeners) listener();
+}
+
+/** Call back whenever numbers are shown the other way, until `signal` ends it. */
+export function onCounting(listener, signal) {
+  listeners.add(listener);
+  signal?.addEventListener('abort', () => listeners.delete(listener));
+}
+
+/** A frame as a number to show, plain. */
+export const numberOf = (frame) => frame + first;
+
+/** A frame, grouped by thousands. */
+export const shownFrame = (frame) => whole(frame + first);
+
+/** An interval [start, end): "208–385" without its end, "209–385" with its last frame. */
+export const shownInterval = (start, end) => `${whole(start + first)}–${whole(end)}`;
+
+/** The frame a person means by what they typed, or null. */
+export function typedFrame(text) {
+  const digits = text.replace(/[\s\u202f,]/g, '');
+  return /^\d+$/.test(digits) ? Math.max(0, Number(digits) - first) : null;
 }

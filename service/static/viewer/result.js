@@ -2,14 +2,12 @@
 
 import { Clock } from './timeline/playhead.js';
 import { reflect } from './panels/segmentation_form.js';
-import { onCounting } from './frame_numbering.js';
+import { onCounting } from './number_format.js';
 import { Curve } from './timeline/energy_curve.js';
 import { $ } from './dom.js';
 import { Editor } from './editing/editor.js';
-import { tellCounts, tellTake } from './panels/facts.js';
-import { tellMoment } from './panels/moment.js';
+import { captions, tellCounts, tellMoment, tellTake } from './panels/status.js';
 import { SegmentList } from './panels/segment_list.js';
-import { captions } from './panels/pair.js';
 import { tagged } from './palette.js';
 import { Presence } from './figure/figure_panel.js';
 import { Review } from './panels/cut_review.js';

@@ -1,4 +1,4 @@
-// A list that is one stop of the Tab key: arrows move within it.
+// Lists and tabs that are one stop of the Tab key: arrows move within (the roving tabindex of the ARIA authoring guide).
 
 /** Wire `container`: of the elements `selector` finds, one can be tabbed to; arrows, Home and End move it. */
 export function roving(container, selector, { horizontal = false } = {}) {
@@ -26,4 +26,21 @@ export function roving(container, selector, { horizontal = false } = {}) {
 export function stop(container, selector, item = container.querySelector(selector)) {
   for (const other of container.querySelectorAll(`${selector}[tabindex="0"]`)) if (other !== item) other.tabIndex = -1;
   if (item) item.tabIndex = 0;
+}
+
+/** Wire a tablist. Each tab names its panel by `aria-controls`. Answers a function that shows a tab by its id. */
+export function tabs(list) {
+  const all = [...list.querySelectorAll('[role=tab]')];
+  const show = (id) => {
+    for (const tab of all) {
+      const chosen = tab.id === id;
+      tab.setAttribute('aria-selected', String(chosen));
+      document.getElementById(tab.getAttribute('aria-controls')).hidden = !chosen;
+      if (chosen) stop(list, '[role=tab]', tab);
+    }
+  };
+  roving(list, '[role=tab]', { horizontal: true });
+  list.addEventListener('click', (event) => event.target.closest('[role=tab]') && show(event.target.closest('[role=tab]').id));
+  list.addEventListener('focusin', (event) => event.target.closest('[role=tab]') && show(event.target.closest('[role=tab]').id));
+  return show;
 }

@@ -1,6 +1,6 @@
 // The row of editing tools: it shows the segment at the moment, the selected cut, and whether all is kept.
 
-import { numberOf, onCounting, shownFrame, typedFrame } from '../frame_numbering.js';
+import { numberOf, onCounting, shownFrame, typedFrame } from '../number_format.js';
 import { $, make } from '../dom.js';
 import { colourOf } from '../palette.js';
 import { motionsOf } from './segment_edits.js';

@@ -1,6 +1,6 @@
 // Editing a result: what is selected, what was done, and that it is kept. Every edit goes through `#do`.
 
-import { shownFrame } from '../frame_numbering.js';
+import { shownFrame } from '../number_format.js';
 import { announce } from '../dom.js';
 import { History } from './undo_history.js';
 import { Saving } from './revision_saving.js';

@@ -109,3 +109,8 @@ function freeName(segments) {
 }
 
 const replaced = (segments, index, count, ...others) => [...segments.slice(0, index), ...others, ...segments.slice(index + count)];
+
+const DOUBT = 0.5;
+
+/** Whether the cut that ends a segment is rather wrong than right. The last segment ends with the take, for certain. */
+export const doubtful = ({ confidence }) => confidence !== null && confidence < DOUBT;

@@ -40,7 +40,7 @@ export class Presence {
       this.#here = true;
       this.tell('');
       $('upright').hidden = viewer.kind !== 'vertices';
-      this.#offerStrain(stage.strain.present);
+      this.#offerStrain(stage.strain);
       stage.canvas.dataset.shown = viewer.kind;
       this.show();
     } catch (problem) {
@@ -105,9 +105,10 @@ export class Presence {
   }
 
   /** Without strain to show (joints alone, or rigid parts) the motions colour the figure. */
-  #offerStrain(present) {
+  #offerStrain({ present, gradient }) {
     const choice = (look) => document.querySelector(`#looks [value=${look}]`);
     choice('strain').parentElement.hidden = $('heat').hidden = !present;
+    $('heat').querySelector('i').style.background = gradient;
     if (!present && choice('strain').checked) {
       choice('motion').checked = true;
       this.#look = 'motion';

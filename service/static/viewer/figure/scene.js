@@ -1,13 +1,12 @@
-// The 3D view: eye, light, floor and one figure, at one moment or at two side by side. Draws only when something changed.
+// The 3D view: camera, light, floor and one figure, at one moment or at two side by side. Draws only when something changed.
 
-import { Scene, Vector3, WebGLRenderer } from 'three';
-import { onResize, onTheme, styled } from '../dom.js';
+import { DirectionalLight, Group, HemisphereLight, Scene, Vector3, WebGLRenderer } from 'three';
 import { Eye } from './camera.js';
-import { gltfFigure } from './gltf_figure.js';
-import { verticesFigure } from './vertex_figure.js';
+import { onResize, onTheme, styled } from '../dom.js';
 import { Floor } from './floor.js';
-import { Light } from './light.js';
+import { gltfFigure } from './gltf_figure.js';
 import { Strain } from './strain_shading.js';
+import { verticesFigure } from './vertex_figure.js';
 
 const FINEST = 2; // pixels to a CSS pixel; more is not seen
 
@@ -144,4 +143,20 @@ function rendererOn(canvas) {
   const renderer = new WebGLRenderer({ canvas, context });
   renderer.setPixelRatio(ratio);
   return renderer;
+}
+
+export class Light {
+  #key = new DirectionalLight(0xfff4e6, 1.7); #rim = new DirectionalLight(0xcfe0ff, 0.9);
+  #sky = new HemisphereLight(0xffffff, 0xb5aa9a, 1.9);
+
+  constructor() {
+    this.object = new Group().add(this.#sky, this.#key, this.#rim, this.#key.target, this.#rim.target);
+  }
+
+  /** Stand about `target` as the camera sees it. */
+  follow(camera, target) {
+    this.#key.position.set(-0.5, 0.9, 0.6).applyQuaternion(camera.quaternion).add(target);
+    this.#rim.position.set(0.9, 0.5, -0.8).applyQuaternion(camera.quaternion).add(target);
+    for (const light of [this.#key, this.#rim]) light.target.position.copy(target);
+  }
 }

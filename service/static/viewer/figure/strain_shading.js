@@ -1,8 +1,11 @@
 // Strain as colour: one byte a patch and frame, looked up on the GPU, so that a frame costs a few hundred bytes.
 
 import { Color, DataTexture, NearestFilter, RedFormat, UnsignedByteType } from 'three';
-import { BEND, HEAT } from './heat.js';
 
+// At rest the body's own clay, then through amber and vermilion to a dark violet: lightness falls all the way, so that the
+// order is read without telling hues apart.
+const HEAT = ['#d5d2ca', '#f0c15a', '#e8712e', '#ae1f57', '#43106b'];
+const BEND = 0.7; // colour moves with strain to this power: most of a body is strained a little, and a little should be seen
 const CLAY = new Color(HEAT[0]);
 
 const VERTEX = `
@@ -43,6 +46,9 @@ export class Strain {
   }
 
   get present() { return this.#file !== null; }
+
+  /** The colours from rest to the most strain, for the legend. */
+  get gradient() { return `linear-gradient(to right, ${HEAT.join(', ')})`; }
 
   #texture(patches) {
     const map = new DataTexture(new Uint8Array(patches), patches, 1, RedFormat, UnsignedByteType);

@@ -1,11 +1,10 @@
 // The cuts, least certain first, for a person to look through.
 
-import { doubtful } from '../editing/certainty.js';
-import { Checked } from './checked.js';
-import { onCounting } from '../frame_numbering.js';
-import { cutRow, cutText } from './cut_row.js';
-import { $, inView, make } from '../dom.js';
-import { count } from '../number_format.js';
+import { doubtful } from '../editing/segment_edits.js';
+import { $, inView, make, unseen } from '../dom.js';
+import { count, onCounting, shownFrame } from '../number_format.js';
+import { store, stored } from '../local_storage.js';
+import { swatch } from '../palette.js';
 import { roving, stop } from '../roving_focus.js';
 
 const AROUND = 0.5; // seconds played on either side
@@ -132,4 +131,46 @@ export function reviewTools(review) {
   $('doubtful').addEventListener('click', () => review()?.next());
   $('around').addEventListener('click', () => review()?.play());
   $('checked').addEventListener('click', () => review()?.check());
+}
+
+/** What the row of the cut between two segments says, and a key that is another whenever the row must be. */
+export function cutText(before, after, checked) {
+  const known = checked ? 'checked' : before.confidence === null ? 'set by hand' : null;
+  const state = known || `${Math.round(100 * before.confidence)} %`;
+  const frame = shownFrame(before.end);
+  return { frame, state, known, key: [frame, state, before.motion, before.name, after.motion, after.name].join('\n') };
+}
+
+/** The row, a button that calls `choose`. */
+export function cutRow(before, after, { frame, state, known }, choose) {
+  const names = `${before.name} | ${after.name}`;
+  const row = make('button', { type: 'button', className: 'cut', tabIndex: -1, onclick: choose },
+    swatch(before.motion), swatch(after.motion),
+    make('span', { className: 'name', title: names }, names),
+    unseen(' at frame '),
+    make('span', { className: 'from' }, frame),
+    unseen(known ? ' ' : ' certain to '),
+    make('span', { className: 'sure' }, state));
+  row.classList.toggle('open', !known && doubtful(before));
+  return row;
+}
+
+export class Checked {
+  #key; #frames;
+
+  /** Those of the result `id`. */
+  constructor(id) {
+    this.#key = `caesura.checked.${id}`;
+    this.#frames = new Set(stored(this.#key, []));
+  }
+
+  has(frame) { return this.#frames.has(frame); }
+
+  /** Mark a cut, or take its mark away. Answers whether it is marked now. */
+  toggle(frame) {
+    const marked = !this.has(frame);
+    if (marked) this.#frames.add(frame); else this.#frames.delete(frame);
+    store(this.#key, [...this.#frames]);
+    return marked;
+  }
 }

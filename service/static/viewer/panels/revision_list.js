@@ -4,6 +4,7 @@ import * as api from '../service/api.js';
 import { $, make } from '../dom.js';
 import { ago } from '../number_format.js';
 import { roving, stop } from '../roving_focus.js';
+import { note } from './segmentation_form.js';
 
 let asked = 0;
 
@@ -27,3 +28,17 @@ export async function showRevisions(id, shown, open) {
 
 /** Wire the list once. */
 export const revisionList = () => roving($('revisions'), 'button');
+
+/** Show another revision of a result, after what is open is kept (or, where it cannot be, dropped on purpose). */
+export async function openRevision(result, number, dropping = false) {
+  const { saving } = result.editor;
+  const { id } = result.document;
+  try {
+    if (!dropping) await saving.flush();
+    const newest = dropping ? number : saving.newest;
+    const document = await api.result(id, number);
+    if (result.closed) return;
+    history.replaceState(null, '', `/view/${id}${number === newest ? '' : `?revision=${number}`}${location.hash}`);
+    result.show(document, { ...result.status, revision: newest });
+  } catch (problem) { note(problem.message); }
+}

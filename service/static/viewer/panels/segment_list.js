@@ -1,9 +1,8 @@
 // The list of segments: what, from where, how long. Every row is a button that goes there; one Tab stop for all.
 
-import { doubtful } from '../editing/certainty.js';
-import { countsFrom, shownFrame, shownInterval } from '../frame_numbering.js';
+import { doubtful } from '../editing/segment_edits.js';
+import { countsFrom, duration, shownFrame, shownInterval } from '../number_format.js';
 import { $, inView, make, unseen } from '../dom.js';
-import { duration } from '../number_format.js';
 import { swatch } from '../palette.js';
 import { roving, stop } from '../roving_focus.js';
 

@@ -1,10 +1,12 @@
 // Another number of motions, another method: asked of the same animation, so the vertices are not touched again.
 
 import * as api from '../service/api.js';
+import { finished } from '../service/job_status.js';
 import { $, make } from '../dom.js';
-import { showScores } from './score_chart.js';
+import { count } from '../number_format.js';
 
 const DELAY = 350; // ms of quiet before a typed or stepped number is sent
+const SOON = 150; // ms after which a wait is said
 const MOST = 1000; // motions; the service takes no more
 
 let choose = () => {};
@@ -71,6 +73,27 @@ export function reflect(document) {
   showScores(compared.scores, chosen, choose);
 }
 
+/** Cut the take of a result with other parameters, after what is open is kept. */
+export async function recut(result, changes, signal) {
+  const waiting = setTimeout(() => note('Cutting again …'), SOON);
+  try {
+    const { saving } = result.editor;
+    await saving.flush();
+    const { id } = await api.segment(result.status.animation, { ...result.document.parameters, ...changes });
+    const status = await finished(id, () => {}, signal);
+    const document = await api.result(id, status.revision);
+    if (signal.aborted || result.closed) return;
+    const left = id !== result.document.id && saving.shown > 0;
+    history.pushState(null, '', `/view/${id}${location.hash}`);
+    result.show(document, status);
+    note(`Now ${count(document.motions, 'motion')} in ${count(document.segments.length, 'segment')}.${left ? ' Your edits are of the cut before: go back to see them.' : ''}`);
+  } catch (problem) {
+    if (problem.name === 'AbortError' || result.closed) return;
+    note(problem.message);
+    reflect(result.document);
+  } finally { clearTimeout(waiting); }
+}
+
 const option = (name, title = '') => make('option', { value: name, title }, name);
 
 /** Fill the choice of methods from what the service offers. */
@@ -82,4 +105,45 @@ export async function offerMethods() {
   $('method').replaceChildren(...answer.methods.map(({ name, description }) => option(name, description)));
   if (chosen) $('method').value = chosen;
   $('auto').disabled = told.has(chosen);
+}
+
+const WIDE = 280;
+const HIGH = 64;
+const EDGE = { left: 12, right: 12, top: 10, bottom: 18 };
+
+const svg = (tag, attributes, text = '') => {
+  const element = document.createElementNS($('scores').querySelector('svg').namespaceURI, tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.textContent = text;
+  return element;
+};
+
+/** Draw `scores` with `chosen` marked; hidden where there is nothing to compare. `choose(motions)` is called on a click. */
+export function showScores(scores, chosen, choose) {
+  $('scores').hidden = scores.length < 2;
+  if (scores.length < 2) return;
+  const chart = $('scores').querySelector('svg');
+  const step = (WIDE - EDGE.left - EDGE.right) / (scores.length - 1);
+  const most = Math.max(...scores.map(({ score }) => score)) || 1;
+  const x = (i) => EDGE.left + i * step;
+  const y = (score) => EDGE.top + (1 - Math.max(0, score) / most) * (HIGH - EDGE.top - EDGE.bottom);
+  const every = Math.max(1, Math.ceil(scores.length / 12)); // numbers below, no more than are read
+  const line = scores.map(({ score }, i) => `${i ? 'L' : 'M'}${x(i).toFixed(1)} ${y(score).toFixed(1)}`).join('');
+  const at = scores.findIndex(({ motions }) => motions === chosen);
+  const numbered = (i) => i === at || (i % every === 0 && Math.abs(i - at) >= every);
+  chart.setAttribute('viewBox', `0 0 ${WIDE} ${HIGH}`);
+  chart.setAttribute('aria-label', `Left unexplained by number of motions: ${scores.map(({ motions, score }) => `${motions}: ${Math.round(100 * score)} %`).join(', ')}. In use: ${chosen}.`);
+  chart.replaceChildren(
+    svg('path', { class: 'base', d: `M0 ${HIGH - EDGE.bottom + 0.5}H${WIDE}` }),
+    ...(at < 0 ? [] : [svg('path', { class: 'drop-line', d: `M${x(at)} ${y(scores[at].score)}V${HIGH - EDGE.bottom}` })]),
+    svg('path', { class: 'line', d: line }),
+    ...scores.map(({ score }, i) => svg('circle', { class: i === at ? 'dot chosen' : 'dot', cx: x(i), cy: y(score), r: i === at ? 4.5 : 2.5 })),
+    ...scores.map(({ motions }, i) => (numbered(i) ? svg('text', { x: x(i), y: HIGH - 4, class: i === at ? 'chosen' : '' }, motions) : null)).filter(Boolean),
+    ...scores.map(({ motions, score }, i) => {
+      const area = svg('rect', { x: x(i) - step / 2, y: 0, width: step, height: HIGH });
+      area.append(svg('title', {}, `${motions}: ${Math.round(100 * score)} % left`));
+      area.addEventListener('click', () => choose(motions));
+      return area;
+    }),
+  );
 }

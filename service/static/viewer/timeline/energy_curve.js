@@ -1,8 +1,8 @@
 // The energy curve, its key-frames and the cuts, over the colours of the motions.
 
 import uPlot from 'uplot';
-import { doubtful } from '../editing/certainty.js';
-import { numberOf } from '../frame_numbering.js';
+import { doubtful } from '../editing/segment_edits.js';
+import { numberOf } from '../number_format.js';
 import { onceAFrame, onResize, onTheme, styled } from '../dom.js';
 import { colourOf } from '../palette.js';
 import { thinned } from './decimation.js';

@@ -1,6 +1,7 @@
-// Going to segments of a result, and staying in one.
+// Moving along a take: to segments and frames, at a speed, again and again, nearer or farther; and about the figure.
 
 import { $ } from '../dom.js';
+import { countFrom, countsFrom, typedFrame } from '../number_format.js';
 
 /** To the first frame of a segment. */
 export function goTo({ document, editor, clock, span }, index) {
@@ -23,4 +24,41 @@ export function jump(result, by) {
 export function loop(result, on) {
   const { start, end } = result.document.segments[result.indexAt(result.clock.frame)];
   result.clock.loop = on ? [start, end] : null;
+}
+
+/** Wire the buttons of the player once. */
+export function playback(shown) {
+  const on = (id, event, action) => $(id).addEventListener(event, action);
+  const frame = $('frame');
+  on('play', 'click', () => shown().clock.toggle());
+  on('previous', 'click', () => jump(shown(), -1));
+  on('next', 'click', () => jump(shown(), 1));
+  on('speed', 'change', (event) => { shown().clock.speed = Number(event.target.value); });
+  on('loop', 'change', (event) => loop(shown(), event.target.checked));
+  on('frame', 'focus', () => frame.select());
+  on('frame', 'keydown', (event) => { if (event.key === 'Enter' || event.key === 'Escape') frame.blur(); });
+  on('frame', 'change', () => {
+    const typed = typedFrame(frame.value);
+    if (typed !== null) { shown().clock.seek(typed); shown().span.reveal(shown().clock.frame); }
+  });
+  on('frame', 'blur', () => shown()?.clock.tell()); // what was typed and is no frame goes back to the one shown
+  $('count-one').checked = countsFrom() === 1;
+  on('count-one', 'change', (event) => countFrom(event.target.checked ? 1 : 0));
+}
+
+/** Wire the buttons of the zoom and of the figure once. */
+export function view(shown) {
+  const on = (id, event, action) => $(id).addEventListener(event, action);
+  const zoom = (factor) => shown().span.zoom(factor, shown().clock.frame);
+  on('zoom-in', 'click', () => zoom(1.6));
+  on('zoom-out', 'click', () => zoom(1 / 1.6));
+  on('zoom-fit', 'click', () => shown().span.all());
+  on('reframe', 'click', () => shown().presence.stage?.reframe());
+  on('follow', 'change', (event) => { if (shown().presence.stage) shown().presence.stage.following = event.target.checked; });
+  on('upright', 'click', (event) => {
+    const pressed = event.target.getAttribute('aria-pressed') !== 'true';
+    event.target.setAttribute('aria-pressed', String(pressed));
+    shown().presence.stage?.turn(pressed);
+  });
+  on('looks', 'change', (event) => shown().presence.look(event.target.value));
 }

@@ -1,9 +1,7 @@
 // Pointer and wheel over the curve and the timeline: the playhead that runs through both, and cuts to be dragged.
 
-import { shownFrame } from '../frame_numbering.js';
 import { $, onResize } from '../dom.js';
-import { clock as clockTime } from '../number_format.js';
-import { Pinch } from './pinch.js';
+import { clock as clockTime, shownFrame } from '../number_format.js';
 
 const WHEEL = 0.0018;
 const NEAR = { mouse: 5, pen: 8, touch: 14 }; // pixels from a cut that still take hold of it
@@ -130,4 +128,36 @@ export class Tracks {
 function repetition({ repeats }, frame) {
   const at = repeats.findLastIndex(({ start }) => start <= frame);
   return repeats.length > 1 && at >= 0 ? `, ${at + 1} of ${repeats.length}` : '';
+}
+
+const CLOSE = 0.02; // share of the width below which two fingers say nothing of how far to zoom
+
+export class Pinch {
+  #span; #fingers = new Map();
+
+  constructor(span) { this.#span = span; }
+
+  get on() { return this.#fingers.size > 1; }
+
+  /** A finger comes down at a share of the width: from now on each holds the frame it is on. */
+  press(id, share) {
+    this.#fingers.set(id, { share });
+    for (const finger of this.#fingers.values()) finger.frame = this.#span.from + finger.share * this.#span.length;
+  }
+
+  /** A finger moves. */
+  move(id, share) {
+    const finger = this.#fingers.get(id);
+    if (!finger) return;
+    finger.share = share;
+    if (!this.on) return;
+    const fingers = [...this.#fingers.values()].sort((one, other) => one.share - other.share);
+    const [left, right] = [fingers[0], fingers.at(-1)]; // of three, the outer ones
+    if (right.share - left.share < CLOSE || right.frame <= left.frame) return;
+    const length = (right.frame - left.frame) / (right.share - left.share);
+    const from = left.frame - left.share * length;
+    this.#span.set(from, from + length);
+  }
+
+  release(id) { this.#fingers.delete(id); }
 }
