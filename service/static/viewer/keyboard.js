@@ -1,32 +1,32 @@
 // The page by keyboard alone, and the list of its keys. A key that types into a field is the field's.
 
 import { $, make } from './dom.js';
-import { jump } from './timeline/navigation.js';
+import { goToNeighbour } from './timeline/navigation.js';
 
-/** `shown()` is the result on screen, or null; `askHelp` opens the list of keys. */
-export function keyboard(shown, askHelp) {
+/** `shown()` is the result on screen, or null; `showHelp` opens the list of keys. */
+export function addKeyboard(shown, showHelp) {
   const step = (frames) => {
-    const { clock, span, editor } = shown();
+    const { playhead, range, editor } = shown();
     if (editor.cut >= 0) return editor.nudge(frames);
-    clock.toggle(false);
-    clock.seek(clock.frame + frames);
-    span.reveal(clock.frame);
+    playhead.toggle(false);
+    playhead.seek(playhead.frame + frames);
+    range.reveal(playhead.frame);
   };
-  const to = (frame) => { shown().clock.seek(frame); shown().span.reveal(frame); };
-  const zoom = (factor) => shown().span.zoom(factor, shown().clock.frame);
+  const to = (frame) => { shown().playhead.seek(frame); shown().range.reveal(frame); };
+  const zoom = (factor) => shown().range.zoom(factor, shown().playhead.frame);
   const click = (id) => () => $(id).click();
   const keys = {
-    ' ': () => shown().clock.toggle(),
+    ' ': () => shown().playhead.toggle(),
     ArrowLeft: (event) => step(event.shiftKey ? -10 : -1),
     ArrowRight: (event) => step(event.shiftKey ? 10 : 1),
     Home: () => to(0),
-    End: () => to(shown().clock.frames - 1),
-    ',': () => jump(shown(), -1),
-    '.': () => jump(shown(), 1),
+    End: () => to(shown().playhead.frames - 1),
+    ',': () => goToNeighbour(shown(), -1),
+    '.': () => goToNeighbour(shown(), 1),
     '+': () => zoom(1.6),
     '=': () => zoom(1.6),
     '-': () => zoom(1 / 1.6),
-    0: () => shown().span.all(),
+    0: () => shown().range.showAll(),
     '[': () => shown().editor.selectNext(-1),
     ']': () => shown().editor.selectNext(1),
     Escape: () => shown().editor.select(-1),
@@ -35,8 +35,8 @@ export function keyboard(shown, askHelp) {
     Backspace: (event) => shown().editor.merge(event.shiftKey),
     s: () => shown().editor.split(),
     r: () => { $('motion-name').focus(); $('motion-name').select(); },
-    o: () => shown().editor.flag('loop'),
-    x: () => shown().editor.flag('discard'),
+    o: () => shown().editor.toggleFlag('loop'),
+    x: () => shown().editor.toggleFlag('discard'),
     n: click('doubtful'),
     p: click('around'),
     c: click('checked'),
@@ -44,30 +44,30 @@ export function keyboard(shown, askHelp) {
     f: click('reframe'),
   };
   addEventListener('keydown', (event) => {
-    if (event.altKey || document.querySelector('dialog[open]') || isOwn(event)) return;
-    if (event.ctrlKey || event.metaKey) return history(event, shown);
-    if (event.key === '?') return askHelp();
+    if (event.altKey || document.querySelector('dialog[open]') || belongsToControl(event)) return;
+    if (event.ctrlKey || event.metaKey) return undoOrRedo(event, shown);
+    if (event.key === '?') return showHelp();
     const action = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!shown() || !action) return;
     event.preventDefault();
     action(event);
   });
   addEventListener('keyup', (event) => { // when some browsers press a button
-    if (event.key === ' ' && shown() && !isOwn(event)) event.preventDefault();
+    if (event.key === ' ' && shown() && !belongsToControl(event)) event.preventDefault();
   });
 }
 
 /** Whether a key is for the control that has the focus: it types, chooses or presses there. */
-function isOwn({ key, target }) {
+function belongsToControl({ key, target }) {
   if (target.matches('input:not([type=radio]):not([type=checkbox]), textarea')) return true;
-  if (key === ' ' && isPointed(target)) return false;
+  if (key === ' ' && hasPointerFocus(target)) return false;
   if (target.matches('select')) return true;
   if (key.startsWith('Arrow')) return target.matches('input[type=radio]');
   return [' ', 'Enter'].includes(key) && target.matches('button, a, label, summary, input');
 }
 
 /** Ctrl+Z, Ctrl+Shift+Z and Ctrl+Y. */
-function history(event, shown) {
+function undoOrRedo(event, shown) {
   const key = event.key.toLowerCase();
   if (!shown() || !['z', 'y'].includes(key)) return;
   event.preventDefault();
@@ -89,7 +89,7 @@ const KEYS = [
 ];
 
 /** Wire the overlay once; answers a function that opens it. */
-export function help() {
+export function addHelp() {
   const dialog = $('help');
   $('help-keys').replaceChildren(...KEYS.map(([title, keys]) => make('section', {}, make('h3', {}, title),
     make('dl', {}, ...keys.flatMap(([key, what]) => [
@@ -101,11 +101,11 @@ export function help() {
 }
 
 let byPointer = false;
-let pointed = null;
+let focused = null;
 
 addEventListener('pointerdown', () => { byPointer = true; }, true);
 addEventListener('keydown', () => { byPointer = false; }, true);
-addEventListener('focusin', ({ target }) => { pointed = byPointer ? target : null; });
+addEventListener('focusin', ({ target }) => { focused = byPointer ? target : null; });
 
 /** Whether a pointer gave the focus to an element. */
-export const isPointed = (element) => element === pointed;
+export const hasPointerFocus = (element) => element === focused;

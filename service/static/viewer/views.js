@@ -4,13 +4,13 @@ import { Problem } from './service/api.js';
 import { $ } from './dom.js';
 
 /** Show one of them. */
-export function face(name, title = '') {
+export function showView(name, title = '') {
   document.body.dataset.view = name;
   document.title = title ? `${title} · Caesura` : 'Caesura';
 }
 
 /** Say what went wrong, and with what. `again()` tries it once more, where what went wrong may pass. */
-export function refuse(problem, name, again) {
+export function showProblem(problem, name, again) {
   if (problem.name === 'AbortError') return;
   if (!(problem instanceof Problem)) console.error(problem);
   const { pointer, parameter, frame, code, status } = problem.document || {};
@@ -18,14 +18,14 @@ export function refuse(problem, name, again) {
   $('refused-where').textContent = [name, code, pointer, parameter, frame !== undefined && `frame ${frame}`].filter(Boolean).join(' · ');
   $('refused-again').hidden = code !== 'unreachable' && !(status >= 500);
   $('refused-again').onclick = again;
-  face('refused', 'Problem');
+  showView('refused', 'Problem');
 }
 
 const REST = 250; // ms that the moment rests before it is written down: browsers refuse to be told sixty times a second
 
-export const resultOfAddress = () => /^\/view\/([^/]+)$/.exec(location.pathname)?.[1];
-export const revisionOfAddress = () => numberAfter(location.search, /[?&]revision=(\d+)/);
-export const frameOfAddress = () => numberAfter(location.hash, /[#&]frame=(\d+)/);
+export const resultInAddress = () => /^\/view\/([^/]+)$/.exec(location.pathname)?.[1];
+export const revisionInAddress = () => numberAfter(location.search, /[?&]revision=(\d+)/);
+export const frameInAddress = () => numberAfter(location.hash, /[#&]frame=(\d+)/);
 
 function numberAfter(text, pattern) {
   const match = pattern.exec(text);
@@ -35,10 +35,10 @@ function numberAfter(text, pattern) {
 let resting;
 
 /** Keep the moment in the address, so that a link opens there. */
-export function remember(clock) {
+export function rememberFrame(playhead) {
   clearTimeout(resting);
-  if (clock.playing) return;
+  if (playhead.playing) return;
   resting = setTimeout(() => {
-    if (document.body.dataset.view === 'result') history.replaceState(null, '', `${location.pathname}${location.search}#frame=${clock.frame}`);
+    if (document.body.dataset.view === 'result') history.replaceState(null, '', `${location.pathname}${location.search}#frame=${playhead.frame}`);
   }, REST);
 }

@@ -29,7 +29,7 @@ vec3 heatOf(float s) {
 }
 `;
 
-export class Strain {
+export class StrainShading {
   #file; #shown = -1;
 
   /** Of a block file, or of none. */
@@ -59,7 +59,7 @@ export class Strain {
   }
 
   /** Make a material show strain or a tint; with MIRRORED among its `defines`, the light falls on the other side. */
-  dress(material) {
+  shade(material) {
     material.onBeforeCompile = (shader) => {
       Object.assign(shader.uniforms, this.uniforms);
       shader.vertexShader = VERTEX + shader.vertexShader.replace('#include <begin_vertex>',
@@ -75,7 +75,7 @@ export class Strain {
   ready(frame) { return !this.#file || this.#file.has(frame); }
 
   /** Show a frame; while its block is on the way the last one stays. */
-  show(frame) {
+  showFrame(frame) {
     if (!this.#file || !this.uniforms.heated.value || frame === this.#shown) return;
     const values = this.#file.peek(frame);
     if (!values) return;
@@ -83,13 +83,13 @@ export class Strain {
     const map = this.uniforms.strainMap.value;
     map.image.data.set(values);
     map.needsUpdate = true;
-    this.#file.ahead(frame);
+    this.#file.prefetch(frame);
   }
 
   fetch(frame) { return this.#file ? this.#file.fetch(frame) : Promise.resolve(); }
 
   /** `strain`, or a colour for the whole body, or null for clay. */
-  look(choice) {
+  colourBy(choice) {
     const heated = choice === 'strain' && this.present;
     this.uniforms.heated.value = heated ? 1 : 0;
     if (!heated) this.uniforms.tint.value.copy(choice && choice !== 'strain' ? new Color(choice).lerp(CLAY, 0.15) : CLAY);

@@ -1,26 +1,26 @@
 // The cuts, least certain first, for a person to look through.
 
-import { doubtful } from '../editing/segment_edits.js';
-import { $, inView, make, unseen } from '../dom.js';
-import { count, onCounting, shownFrame } from '../number_format.js';
+import { isDoubtful } from '../editing/segment_edits.js';
+import { $, scrollToRow, make, screenReaderText } from '../dom.js';
+import { count, onFrameNumbering, frameText } from '../number_format.js';
 import { store, stored } from '../local_storage.js';
-import { swatch } from '../palette.js';
-import { roving, stop } from '../roving_focus.js';
+import { motionSwatch } from '../palette.js';
+import { addRovingFocus, setTabStop } from '../roving_focus.js';
 
 const AROUND = 0.5; // seconds played on either side
 const WIDE = 30; // seconds to look at a cut in, where more than twice that is shown
 
-export class Review {
-  #list = $('cuts'); #editor; #clock; #span; #checked; #rows = new Map(); #drawn = null;
+export class CutReview {
+  #list = $('cuts'); #editor; #playhead; #range; #checked; #rows = new Map(); #drawn = null;
 
-  /** `editor` selects cuts, `clock` plays around them, `span` shows them; results are told apart by `id`. */
-  constructor(id, editor, clock, span, signal) {
+  /** `editor` selects cuts, `playhead` plays around them, `range` shows them; results are told apart by `id`. */
+  constructor(id, editor, playhead, range, signal) {
     this.#editor = editor;
-    this.#clock = clock;
-    this.#span = span;
-    this.#checked = new Checked(id);
+    this.#playhead = playhead;
+    this.#range = range;
+    this.#checked = new CheckedCuts(id);
     this.#list.replaceChildren();
-    onCounting(() => { this.#drawn = null; this.show(); }, signal);
+    onFrameNumbering(() => { this.#drawn = null; this.show(); }, signal);
   }
 
   /** List the cuts as they are now, and mark the selected one. */
@@ -43,7 +43,7 @@ export class Review {
     const next = open[(at + 1) % Math.max(1, open.length)];
     if (!next) return false;
     this.#choose(next.cut);
-    inView(this.#list, this.#rowOf(next.cut));
+    scrollToRow(this.#list, this.#rowOf(next.cut));
     return true;
   }
 
@@ -59,8 +59,8 @@ export class Review {
   play() {
     if (!this.#selected) return;
     const { end } = this.#selected;
-    const some = AROUND * this.#clock.rate;
-    this.#clock.once(end - some, end + some, end);
+    const some = AROUND * this.#playhead.rate;
+    this.#playhead.playOnce(end - some, end + some, end);
   }
 
   /** The segment that the selected cut ends, if one is selected. */
@@ -70,8 +70,8 @@ export class Review {
   #choose(cut) {
     this.#editor.select(cut);
     const { end } = this.#editor.segments[cut];
-    const wide = WIDE * this.#clock.rate;
-    if (this.#span.length > 2 * wide) this.#span.set(end - wide / 2, end + wide / 2);
+    const wide = WIDE * this.#playhead.rate;
+    if (this.#range.length > 2 * wide) this.#range.set(end - wide / 2, end + wide / 2);
   }
 
   /** Whether nobody has checked or placed the cut that ends a segment. */
@@ -97,13 +97,13 @@ export class Review {
     });
     while (this.#list.children.length > order.length) this.#list.lastChild.remove();
     this.#rows = kept;
-    if (!this.#list.querySelector('[tabindex="0"]')) stop(this.#list, 'button');
+    if (!this.#list.querySelector('[tabindex="0"]')) setTabStop(this.#list, 'button');
     this.#say(order.map(({ segment }) => segment));
   }
 
   #say(segments) {
     const open = segments.filter((segment) => this.#isOpen(segment));
-    const doubts = open.filter(doubtful).length;
+    const doubts = open.filter(isDoubtful).length;
     $('doubts').textContent = doubts;
     $('doubts').hidden = !doubts;
     $('doubtful').disabled = !open.length;
@@ -126,8 +126,8 @@ export class Review {
 }
 
 /** Wire the tools of the list once. */
-export function reviewTools(review) {
-  roving($('cuts'), 'button');
+export function addReviewTools(review) {
+  addRovingFocus($('cuts'), 'button');
   $('doubtful').addEventListener('click', () => review()?.next());
   $('around').addEventListener('click', () => review()?.play());
   $('checked').addEventListener('click', () => review()?.check());
@@ -137,7 +137,7 @@ export function reviewTools(review) {
 export function cutText(before, after, checked) {
   const known = checked ? 'checked' : before.confidence === null ? 'set by hand' : null;
   const state = known || `${Math.round(100 * before.confidence)} %`;
-  const frame = shownFrame(before.end);
+  const frame = frameText(before.end);
   return { frame, state, known, key: [frame, state, before.motion, before.name, after.motion, after.name].join('\n') };
 }
 
@@ -145,17 +145,17 @@ export function cutText(before, after, checked) {
 export function cutRow(before, after, { frame, state, known }, choose) {
   const names = `${before.name} | ${after.name}`;
   const row = make('button', { type: 'button', className: 'cut', tabIndex: -1, onclick: choose },
-    swatch(before.motion), swatch(after.motion),
+    motionSwatch(before.motion), motionSwatch(after.motion),
     make('span', { className: 'name', title: names }, names),
-    unseen(' at frame '),
+    screenReaderText(' at frame '),
     make('span', { className: 'from' }, frame),
-    unseen(known ? ' ' : ' certain to '),
+    screenReaderText(known ? ' ' : ' certain to '),
     make('span', { className: 'sure' }, state));
-  row.classList.toggle('open', !known && doubtful(before));
+  row.classList.toggle('open', !known && isDoubtful(before));
   return row;
 }
 
-export class Checked {
+export class CheckedCuts {
   #key; #frames;
 
   /** Those of the result `id`. */

@@ -19,7 +19,7 @@ const FORMS = [
  * Wire the links once. `shown()` answers `{ id, name, revision, dirty, keep }`: what is on screen, whether edits are
  * open, and how to keep them.
  */
-export function downloads(shown) {
+export function addExportMenu(shown) {
   const menu = $('downloads').querySelector('details');
   const list = menu.querySelector('ul');
   const links = FORMS.map(([path, title, what, waits]) => {
@@ -50,10 +50,10 @@ export function downloads(shown) {
     try {
       await keep();
       const { id, revision } = shown();
-      const address = api.form(id, path, revision);
+      const address = api.exportAddress(id, path, revision);
       if (waits) {
         note('Writing the file …');
-        while (!(await api.written(address)));
+        while (!(await api.isWritten(address)));
       }
       note('');
       const carrier = make('a', { href: address, download: link.download });
@@ -67,7 +67,7 @@ export function downloads(shown) {
     if (id !== of) note('');
     of = id;
     for (const [link, path] of links) {
-      link.href = api.form(id, path, revision);
+      link.href = api.exportAddress(id, path, revision);
       if (path.startsWith('result.')) link.download = `${stem(name)}${path.slice('result'.length)}`;
     }
   };

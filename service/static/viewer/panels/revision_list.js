@@ -3,8 +3,8 @@
 import * as api from '../service/api.js';
 import { $, make } from '../dom.js';
 import { ago } from '../number_format.js';
-import { roving, stop } from '../roving_focus.js';
-import { note } from './segmentation_form.js';
+import { addRovingFocus, setTabStop } from '../roving_focus.js';
+import { showFormNote } from './segmentation_form.js';
 
 let asked = 0;
 
@@ -23,11 +23,11 @@ export async function showRevisions(id, shown, open) {
     return make('li', {}, row);
   });
   $('revisions').replaceChildren(...rows);
-  stop($('revisions'), 'button');
+  setTabStop($('revisions'), 'button');
 }
 
 /** Wire the list once. */
-export const revisionList = () => roving($('revisions'), 'button');
+export const addRevisionList = () => addRovingFocus($('revisions'), 'button');
 
 /** Show another revision of a result, after what is open is kept (or, where it cannot be, dropped on purpose). */
 export async function openRevision(result, number, dropping = false) {
@@ -40,5 +40,5 @@ export async function openRevision(result, number, dropping = false) {
     if (result.closed) return;
     history.replaceState(null, '', `/view/${id}${number === newest ? '' : `?revision=${number}`}${location.hash}`);
     result.show(document, { ...result.status, revision: newest });
-  } catch (problem) { note(problem.message); }
+  } catch (problem) { showFormNote(problem.message); }
 }

@@ -1,7 +1,7 @@
 // Another number of motions, another method: asked of the same animation, so the vertices are not touched again.
 
 import * as api from '../service/api.js';
-import { finished } from '../service/job_status.js';
+import { waitUntilDone } from '../service/job_status.js';
 import { $, make } from '../dom.js';
 import { count } from '../number_format.js';
 
@@ -10,16 +10,16 @@ const SOON = 150; // ms after which a wait is said
 const MOST = 1000; // motions; the service takes no more
 
 let choose = () => {};
-let told = new Set(); // the methods that cannot find the number of motions themselves
+let needsNumber = new Set(); // the methods that cannot find the number of motions themselves
 let compared = { of: '', scores: [] }; // a cut into a given number has no scores: those of the same method stay
 
-/** Wire the form once. `recut(changes)` posts; `current()` is the document on screen. */
-export function controls({ recut, current }) {
+/** Wire the form once. `resegment(changes)` posts; `current()` is the document on screen. */
+export function addSegmentationForm({ resegment, current }) {
   const field = $('motions');
   let timer;
   const send = (changes, delay = 0) => {
     clearTimeout(timer);
-    timer = setTimeout(() => recut(changes), delay);
+    timer = setTimeout(() => resegment(changes), delay);
   };
   const typed = () => {
     const text = field.value.trim().toLowerCase();
@@ -44,26 +44,26 @@ export function controls({ recut, current }) {
   });
   field.addEventListener('change', () => {
     const motions = typed();
-    if (motions === null) note(`A whole number of motions up to ${MOST}, or auto.`);
-    else if (motions === 'auto' && told.has(current().method)) note(`The method ${current().method} must be told a number.`);
+    if (motions === null) showFormNote(`A whole number of motions up to ${MOST}, or auto.`);
+    else if (motions === 'auto' && needsNumber.has(current().method)) showFormNote(`The method ${current().method} must be told a number.`);
     else send({ motions });
   });
   $('method').addEventListener('change', ({ target: { value: method } }) => {
-    send(told.has(method) && typed() === 'auto' ? { method, motions: current().motions } : { method });
+    send(needsNumber.has(method) && typed() === 'auto' ? { method, motions: current().motions } : { method });
   });
   $('controls').addEventListener('submit', (event) => event.preventDefault());
 }
 
-export function note(sentence) { $('controls-note').textContent = sentence; }
+export function showFormNote(sentence) { $('controls-note').textContent = sentence; }
 
 /** Show what the document was made with. */
-export function reflect(document) {
+export function showParameters(document) {
   const { motions } = document.parameters;
   const auto = motions === 'auto' || motions === undefined;
   $('motions').value = auto ? '' : motions;
   $('motions').placeholder = document.motions;
   $('auto').setAttribute('aria-pressed', String(auto));
-  $('auto').disabled = told.has(document.method);
+  $('auto').disabled = needsNumber.has(document.method);
   const select = $('method');
   if (![...select.options].some((option) => option.value === document.method)) select.append(option(document.method));
   select.value = document.method;
@@ -74,23 +74,23 @@ export function reflect(document) {
 }
 
 /** Cut the take of a result with other parameters, after what is open is kept. */
-export async function recut(result, changes, signal) {
-  const waiting = setTimeout(() => note('Cutting again …'), SOON);
+export async function resegment(result, changes, signal) {
+  const waiting = setTimeout(() => showFormNote('Cutting again …'), SOON);
   try {
     const { saving } = result.editor;
     await saving.flush();
     const { id } = await api.segment(result.status.animation, { ...result.document.parameters, ...changes });
-    const status = await finished(id, () => {}, signal);
+    const status = await waitUntilDone(id, () => {}, signal);
     const document = await api.result(id, status.revision);
     if (signal.aborted || result.closed) return;
     const left = id !== result.document.id && saving.shown > 0;
     history.pushState(null, '', `/view/${id}${location.hash}`);
     result.show(document, status);
-    note(`Now ${count(document.motions, 'motion')} in ${count(document.segments.length, 'segment')}.${left ? ' Your edits are of the cut before: go back to see them.' : ''}`);
+    showFormNote(`Now ${count(document.motions, 'motion')} in ${count(document.segments.length, 'segment')}.${left ? ' Your edits are of the cut before: go back to see them.' : ''}`);
   } catch (problem) {
     if (problem.name === 'AbortError' || result.closed) return;
-    note(problem.message);
-    reflect(result.document);
+    showFormNote(problem.message);
+    showParameters(result.document);
   } finally { clearTimeout(waiting); }
 }
 
@@ -100,11 +100,11 @@ const option = (name, title = '') => make('option', { value: name, title }, name
 export async function offerMethods() {
   const answer = await api.methods().catch(() => null);
   if (!answer) return;
-  told = new Set(answer.methods.filter(({ parameters }) => parameters.required?.includes('motions')).map(({ name }) => name));
+  needsNumber = new Set(answer.methods.filter(({ parameters }) => parameters.required?.includes('motions')).map(({ name }) => name));
   const chosen = $('method').value;
   $('method').replaceChildren(...answer.methods.map(({ name, description }) => option(name, description)));
   if (chosen) $('method').value = chosen;
-  $('auto').disabled = told.has(chosen);
+  $('auto').disabled = needsNumber.has(chosen);
 }
 
 const WIDE = 280;

@@ -4,7 +4,7 @@ import { $, make } from '../dom.js';
 
 let stages = [];
 
-export function beginProgress(name) {
+export function resetProgress(name) {
   stages = [];
   $('stages').replaceChildren();
   $('waiting-name').textContent = name || 'Working';
@@ -13,8 +13,8 @@ export function beginProgress(name) {
 }
 
 /** Show a stage, and how much of it is done (null where nobody knows). */
-export function progress(stage, fraction = null, note = fraction === null ? '' : `${Math.round(100 * fraction)} %`) {
-  const words = stageInWords(stage);
+export function showStage(stage, fraction = null, note = fraction === null ? '' : `${Math.round(100 * fraction)} %`) {
+  const words = stageText(stage);
   if (words && stages.at(-1) !== words) {
     stages.push(words);
     $('stages').querySelector('[aria-current]')?.removeAttribute('aria-current');
@@ -26,12 +26,12 @@ export function progress(stage, fraction = null, note = fraction === null ? '' :
 }
 
 /** The same for a status document of the service. */
-export function statusProgress(status) {
+export function showStatus(status) {
   const { stage, fraction } = status.progress || {};
   if (status.status === 'queued') {
     const ahead = status.position || 0;
-    progress('queued', null, ahead ? `${ahead} before this one` : '');
-  } else if (status.status === 'running') progress(stage || 'read', fraction ?? null);
+    showStage('queued', null, ahead ? `${ahead} before this one` : '');
+  } else if (status.status === 'running') showStage(stage || 'read', fraction ?? null);
 }
 
 /** Those of the page itself, the worker's and the method's. */
@@ -49,4 +49,4 @@ export const STAGES = {
 };
 
 /** A stage in words. A stage this page has not heard of is shown under its own name. */
-export const stageInWords = (stage) => STAGES[stage] || (stage ? stage[0].toUpperCase() + stage.slice(1).replaceAll('-', ' ') : '');
+export const stageText = (stage) => STAGES[stage] || (stage ? stage[0].toUpperCase() + stage.slice(1).replaceAll('-', ' ') : '');

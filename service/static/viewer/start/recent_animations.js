@@ -14,10 +14,10 @@ export async function showRecent(open) {
   $('recent').querySelector('ul').replaceChildren(...animations.map((animation) => make('li', {},
     make('button', { type: 'button', className: 'animation', onclick: () => open(animation) },
       make('strong', {}, animation.name || 'unnamed'),
-      make('span', {}, facts(animation))))));
+      make('span', {}, animationFacts(animation))))));
 }
 
-function facts({ format, takes = [], triangles, created }) {
+function animationFacts({ format, takes = [], triangles, created }) {
   const longest = takes.reduce((best, take) => (take.duration_seconds > (best?.duration_seconds ?? -1) ? take : best), null);
   return [
     format && format.toUpperCase(),
