@@ -11,7 +11,7 @@ import { takeSummary, count } from './number_format.js';
 import { acceptFiles } from './start/file_drop.js';
 import { waitUntilDone } from './service/job_status.js';
 import { addEditToolbar } from './editing/edit_toolbar.js';
-import { addHelp, addKeyboard } from './keyboard.js';
+import { addKeyboard } from './keyboard.js';
 import { addReviewTools } from './panels/cut_review.js';
 import { addExportMenu } from './panels/export_menu.js';
 import { openRevision, addRevisionList, showRevisions } from './panels/revision_list.js';
@@ -105,7 +105,7 @@ function show(result, status, viewer) {
 async function leave() {
   shown?.playhead.toggle(false);
   if (!shown?.editor.saving.open) return true;
-  return shown.editor.saving.flush().then(() => true, () => confirm('Your last edits could not be saved. Leave all the same?'));
+  return shown.editor.saving.flush().then(() => true, () => confirm('The service could not save your last edits. Leave anyway?'));
 }
 
 /** What the address asks for. */
@@ -135,7 +135,7 @@ function wire() {
   addSegmentList();
   addRevisionList();
   addReviewTools(() => { showTab('tab-review'); return onScreen()?.review; });
-  addKeyboard(onScreen, addHelp());
+  addKeyboard(onScreen);
   const editor = () => onScreen()?.editor;
   const open = (number, dropping) => openRevision(shown, number, dropping);
   const showEdits = addEditToolbar(editor, { loadTheirs: () => open(editor().saving.theirs, true) });

@@ -14,7 +14,7 @@ export function showProblem(problem, name, again) {
   if (problem.name === 'AbortError') return;
   if (!(problem instanceof Problem)) console.error(problem);
   const { pointer, parameter, frame, code, status } = problem.document || {};
-  $('refused-detail').textContent = problem instanceof Problem ? problem.message : 'The page itself failed; the console says where.';
+  $('refused-detail').textContent = problem instanceof Problem ? problem.message : 'The page has a fault. The console of the browser says where.';
   $('refused-where').textContent = [name, code, pointer, parameter, frame !== undefined && `frame ${frame}`].filter(Boolean).join(' · ');
   $('refused-again').hidden = code !== 'unreachable' && !(status >= 500);
   $('refused-again').onclick = again;

@@ -81,7 +81,7 @@ const WORDS = {
   saving: () => 'Saving …',
   saved: (saving) => (saving.shown ? `Saved · revision ${saving.shown}` : 'As computed'),
   failed: (saving) => `Not saved. ${saving.why}`,
-  stale: (saving) => `Not saved: somebody else made revision ${saving.theirs} meanwhile.`,
+  stale: (saving) => `Not saved: somebody else saved revision ${saving.theirs} first.`,
 };
 
 /** An honest word about where the edits are, and ways on where they are stuck. */

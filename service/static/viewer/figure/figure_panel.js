@@ -46,7 +46,7 @@ export class FigurePanel {
     } catch (problem) {
       if (this.#signal.aborted) return;
       const soon = problem.document?.code === 'not-finished';
-      this.showNote(soon ? 'The figure is still being prepared.' : `The figure cannot be shown: ${problem.message}`);
+      this.showNote(soon ? 'The service still prepares the figure.' : `The page cannot show the figure: ${problem.message}`);
       if (soon) this.#retryTimer = setTimeout(() => this.open(id), SOON);
     }
   }
@@ -67,7 +67,7 @@ export class FigurePanel {
     this.#noteTimer ||= setTimeout(() => this.showNote('Loading …'), LATE);
     missing.then(
       () => request === this.#request && this.show(),
-      () => request === this.#request && this.showNote('This part of the take cannot be loaded.'),
+      () => request === this.#request && this.showNote('The page cannot load this part of the take.'),
     );
   }
 

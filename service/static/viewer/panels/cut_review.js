@@ -108,7 +108,7 @@ export class CutReview {
     $('doubts').hidden = !doubts;
     $('doubtful').disabled = !open.length;
     $('review-hint').textContent = !segments.length ? 'There are no cuts: the take is one segment.'
-      : open.length ? `${doubts ? count(doubts, 'cut is', 'cuts are') : 'No cut is'} in doubt. Least certain first.` : 'Every cut has been checked.';
+      : open.length ? `The method doubts ${doubts ? count(doubts, 'cut') : 'no cut'}. The least certain come first.` : 'You have checked every cut.';
   }
 
   #text(cut) {

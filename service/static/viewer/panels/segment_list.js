@@ -18,7 +18,7 @@ export class SegmentList {
     const whole = before.length !== document.segments.length || this.#counted !== firstFrameNumber();
     this.#document = document;
     this.#counted = firstFrameNumber();
-    $('column-frames').textContent = this.#counted ? 'frames' : 'from';
+    $('column-frames').textContent = this.#counted ? 'frames' : 'start';
     if (whole) return this.#fill();
     document.segments.forEach((segment, index) => {
       if (segment === before[index]) return;
@@ -61,7 +61,7 @@ export class SegmentList {
       screenReaderText(' lasts '),
       make('span', { className: 'long' }, length),
       make('span', { className: 'marks' }, segment.loop ? make('span', {}, '↻', screenReaderText(' loops')) : null,
-        isDoubtful(segment) ? make('b', { title: 'The method is in doubt about where this ends' }, '?', screenReaderText(' doubtful end')) : null));
+        isDoubtful(segment) ? make('b', { title: 'The method doubts where this segment ends' }, '?', screenReaderText(' doubtful end')) : null));
     if (segment.discard) row.append(screenReaderText(' discarded'));
     row.classList.toggle('discarded', Boolean(segment.discard));
     return row;

@@ -44,8 +44,8 @@ export function addSegmentationForm({ resegment, current }) {
   });
   field.addEventListener('change', () => {
     const motions = typed();
-    if (motions === null) showFormNote(`A whole number of motions up to ${MOST}, or auto.`);
-    else if (motions === 'auto' && needsNumber.has(current().method)) showFormNote(`The method ${current().method} must be told a number.`);
+    if (motions === null) showFormNote(`Type a whole number of motions up to ${MOST}, or auto.`);
+    else if (motions === 'auto' && needsNumber.has(current().method)) showFormNote(`The method ${current().method} needs a number of motions.`);
     else send({ motions });
   });
   $('method').addEventListener('change', ({ target: { value: method } }) => {
@@ -73,9 +73,9 @@ export function showParameters(document) {
   showScores(compared.scores, chosen, choose);
 }
 
-/** Cut the take of a result with other parameters, after what is open is kept. */
+/** Segment the take of a result with other parameters, after the open edits are saved. */
 export async function resegment(result, changes, signal) {
-  const waiting = setTimeout(() => showFormNote('Cutting again …'), SOON);
+  const waiting = setTimeout(() => showFormNote('Segmenting again …'), SOON);
   try {
     const { saving } = result.editor;
     await saving.flush();
@@ -86,7 +86,7 @@ export async function resegment(result, changes, signal) {
     const left = id !== result.document.id && saving.shown > 0;
     history.pushState(null, '', `/view/${id}${location.hash}`);
     result.show(document, status);
-    showFormNote(`Now ${count(document.motions, 'motion')} in ${count(document.segments.length, 'segment')}.${left ? ' Your edits are of the cut before: go back to see them.' : ''}`);
+    showFormNote(`The take now has ${count(document.motions, 'motion')} in ${count(document.segments.length, 'segment')}.${left ? ' Your edits belong to the result before: go back to see them.' : ''}`);
   } catch (problem) {
     if (problem.name === 'AbortError' || result.closed) return;
     showFormNote(problem.message);
@@ -132,7 +132,7 @@ export function showScores(scores, chosen, choose) {
   const at = scores.findIndex(({ motions }) => motions === chosen);
   const numbered = (i) => i === at || (i % every === 0 && Math.abs(i - at) >= every);
   chart.setAttribute('viewBox', `0 0 ${WIDE} ${HIGH}`);
-  chart.setAttribute('aria-label', `Left unexplained by number of motions: ${scores.map(({ motions, score }) => `${motions}: ${Math.round(100 * score)} %`).join(', ')}. In use: ${chosen}.`);
+  chart.setAttribute('aria-label', `Error for each number of motions: ${scores.map(({ motions, score }) => `${motions}: ${Math.round(100 * score)} %`).join(', ')}. This result has ${chosen}.`);
   chart.replaceChildren(
     svg('path', { class: 'base', d: `M0 ${HIGH - EDGE.bottom + 0.5}H${WIDE}` }),
     ...(at < 0 ? [] : [svg('path', { class: 'drop-line', d: `M${x(at)} ${y(scores[at].score)}V${HIGH - EDGE.bottom}` })]),
@@ -141,7 +141,7 @@ export function showScores(scores, chosen, choose) {
     ...scores.map(({ motions }, i) => (numbered(i) ? svg('text', { x: x(i), y: HIGH - 4, class: i === at ? 'chosen' : '' }, motions) : null)).filter(Boolean),
     ...scores.map(({ motions, score }, i) => {
       const area = svg('rect', { x: x(i) - step / 2, y: 0, width: step, height: HIGH });
-      area.append(svg('title', {}, `${motions}: ${Math.round(100 * score)} % left`));
+      area.append(svg('title', {}, `${count(motions, 'motion')}: ${Math.round(100 * score)} % error`));
       area.addEventListener('click', () => choose(motions));
       return area;
     }),

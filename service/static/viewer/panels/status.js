@@ -10,7 +10,7 @@ export function showTake({ frames, warnings }) {
   $('frame').size = $('cut-frame').size = Math.max(3, String(frames).length);
   $('timeline').setAttribute('aria-valuemax', frames - 1);
   $('warnings').hidden = !warnings.length;
-  $('warnings').querySelector('summary').textContent = count(warnings.length, 'thing to know', 'things to know');
+  $('warnings').querySelector('summary').textContent = `${count(warnings.length, 'note')} on this result`;
   $('warnings').querySelector('ul').replaceChildren(...warnings.map((warning) => make('li', {}, warning.detail)));
 }
 
@@ -25,8 +25,7 @@ export function showMoment({ playhead, document: { energy }, seconds }, segment,
   const field = $('frame');
   if (field !== document.activeElement) field.value = frameNumber(frame);
   $('seconds').textContent = clockTime(seconds);
-  const nats = energy[frame] ?? null;
-  $('nats').textContent = nats === null ? '' : `${nats.toFixed(3)} nats`;
+  $('energy').textContent = energy[frame] === null ? '' : `energy ${energy[frame].toFixed(3)}`;
   document.body.classList.toggle('playing', playing);
   $('play').setAttribute('aria-label', playing ? 'Pause' : 'Play');
   $('timeline').setAttribute('aria-valuenow', frame);

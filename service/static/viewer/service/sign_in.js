@@ -15,8 +15,8 @@ function askForKey() {
   const key = make('input', { type: 'password', id: 'key', autocomplete: 'current-password', required: true });
   const problem = make('p', { className: 'problem', role: 'alert', hidden: true });
   const form = make('form', { method: 'dialog' },
-    make('h2', { id: 'sign-in' }, 'This service wants a key'),
-    make('p', { className: 'faint' }, 'Whoever keeps the service makes one for you.'),
+    make('h2', { id: 'sign-in' }, 'This service needs a key'),
+    make('p', { className: 'faint' }, 'Ask the person who runs the service for one.'),
     make('p', { className: 'ask' }, make('label', { htmlFor: 'key' }, 'Key'), key, make('button', { type: 'submit', className: 'primary' }, 'Sign in')),
     problem);
   const dialog = make('dialog', { 'aria-labelledby': 'sign-in' }, form);

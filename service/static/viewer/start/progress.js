@@ -1,6 +1,7 @@
 // The wait: every stage as it comes, ticked when it is over.
 
 import { $, make } from '../dom.js';
+import { count } from '../number_format.js';
 
 let stages = [];
 
@@ -30,20 +31,20 @@ export function showStatus(status) {
   const { stage, fraction } = status.progress || {};
   if (status.status === 'queued') {
     const ahead = status.position || 0;
-    showStage('queued', null, ahead ? `${ahead} before this one` : '');
+    showStage('queued', null, ahead ? `${count(ahead, 'job')} before this one` : '');
   } else if (status.status === 'running') showStage(stage || 'read', fraction ?? null);
 }
 
 /** Those of the page itself, the worker's and the method's. */
 export const STAGES = {
-  upload: 'Sending',
+  upload: 'Sending the file',
   queued: 'Waiting for a free worker',
   read: 'Reading the file',
   'rest shape': 'Measuring the figure at rest',
-  sample: 'Looking through the take',
-  strain: 'Measuring how the surface strains',
-  energy: 'Joining strain over time',
-  'key-frames': 'Looking at the key-frames',
+  sample: 'Sampling the take',
+  strain: 'Measuring the strain of the surface',
+  energy: 'Computing the energy curve',
+  'key-frames': 'Choosing the key-frames',
   cut: 'Finding the motions',
   figure: 'Preparing the figure',
 };
