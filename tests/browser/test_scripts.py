@@ -21,7 +21,9 @@ def test_a_thinned_curve_keeps_its_peaks_and_its_order(answer) -> None:
 
 def test_every_stage_has_words(answer, checkout: Path) -> None:
     """What the worker and the method tell of themselves, and nothing that they never tell, is put to a person."""
-    known = answer("import { STAGES } from 'VIEWER/start/progress.js'; console.log(JSON.stringify(Object.keys(STAGES)));")
+    known = answer(
+        "import { STAGES } from 'VIEWER/start/progress.js'; console.log(JSON.stringify(Object.keys(STAGES)));"
+    )
     sources = [
         path.read_text(encoding="utf-8") for part in ("core", "worker") for path in checkout.glob(f"{part}/**/*.py")
     ]

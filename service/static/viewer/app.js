@@ -140,6 +140,7 @@ function wire() {
   const open = (number, dropping) => openRevision(shown, number, dropping);
   const showEdits = addEditToolbar(editor, { loadTheirs: () => open(editor().saving.theirs, true) });
   const showLinks = addExportMenu(() => {
+    if (!editor()) return null;
     const { saving } = editor();
     return { id: shown.document.id, name: shown.status.name, revision: saving.shown, dirty: saving.open, keep: () => saving.flush() };
   });

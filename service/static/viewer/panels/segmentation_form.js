@@ -7,9 +7,9 @@ import { count } from '../number_format.js';
 
 const DELAY = 350; // ms of quiet before a typed or stepped number is sent
 const SOON = 150; // ms after which a wait is said
-const MOST = 1000; // motions; the service takes no more
 
 let choose = () => {};
+let most = Infinity; // motions that the service takes, once it has said so
 let needsNumber = new Set(); // the methods that cannot find the number of motions themselves
 let compared = { of: '', scores: [] }; // a cut into a given number has no scores: those of the same method stay
 
@@ -25,11 +25,11 @@ export function addSegmentationForm({ resegment, current }) {
     const text = field.value.trim().toLowerCase();
     if (text === '' || text === 'auto') return 'auto';
     const number = Number(text);
-    return Number.isInteger(number) && number > 0 && number <= MOST ? number : null;
+    return Number.isInteger(number) && number > 0 && number <= most ? number : null;
   };
   const step = (by) => {
     const from = typed();
-    const number = Math.max(1, Math.min(MOST, (from === 'auto' || from === null ? current().motions : from) + by));
+    const number = Math.max(1, Math.min(most, (from === 'auto' || from === null ? current().motions : from) + by));
     field.value = number;
     $('auto').setAttribute('aria-pressed', 'false');
     send({ motions: number }, DELAY);
@@ -44,7 +44,7 @@ export function addSegmentationForm({ resegment, current }) {
   });
   field.addEventListener('change', () => {
     const motions = typed();
-    if (motions === null) showFormNote(`Type a whole number of motions up to ${MOST}, or auto.`);
+    if (motions === null) showFormNote(`Type a whole number of motions up to ${most}, or auto.`);
     else if (motions === 'auto' && needsNumber.has(current().method)) showFormNote(`The method ${current().method} needs a number of motions.`);
     else send({ motions });
   });
@@ -101,6 +101,7 @@ export async function offerMethods() {
   const answer = await api.methods().catch(() => null);
   if (!answer) return;
   needsNumber = new Set(answer.methods.filter(({ parameters }) => parameters.required?.includes('motions')).map(({ name }) => name));
+  most = answer.methods[0].parameters.properties.motions.anyOf.find(({ type }) => type === 'integer').maximum;
   const chosen = $('method').value;
   $('method').replaceChildren(...answer.methods.map(({ name, description }) => option(name, description)));
   if (chosen) $('method').value = chosen;

@@ -43,6 +43,7 @@ const json = (value) => ({ body: JSON.stringify(value), headers: { 'Content-Type
 export const recentAnimations = () => call('GET', '/v1/animations');
 export const segmentationsOf = (id) => call('GET', `/v1/segmentations?animation=${id}`);
 export const methods = () => call('GET', '/v1/methods');
+export const exports = () => call('GET', '/v1/exports');
 export const status = (id, wait, signal) =>
   call('GET', `/v1/segmentations/${id}`, { headers: wait ? { Prefer: `wait=${wait}` } : {}, signal });
 export const result = (id, revision = 0) =>
