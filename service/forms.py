@@ -2,27 +2,55 @@
 
 from dataclasses import dataclass
 
+from pydantic import BaseModel
+
 from service.errors import Refusal
 
 
 @dataclass(frozen=True)
 class Form:
-    """One form: the suffix that asks for it, and its media type."""
+    """One form: the suffix that asks for it, its media type, what people call it and what it is for."""
 
     suffix: str
     media_type: str
+    title: str
+    description: str
 
 
 FORMS = (
-    Form("json", "application/json"),
-    Form("csv", "text/csv"),
-    Form("npz", "application/x-npz"),
-    Form("vtt", "text/vtt"),
-    Form("eaf", "text/x-eaf+xml"),
+    Form("json", "application/json", "JSON", "the whole result"),
+    Form("csv", "text/csv", "CSV", "one line for each segment"),
+    Form("npz", "application/x-npz", "NPZ", "arrays for NumPy"),
+    Form("vtt", "text/vtt", "VTT", "subtitles for a video"),
+    Form("eaf", "text/x-eaf+xml", "EAF", "annotations for ELAN"),
 )
 
 
-PLOTS = (Form("svg", "image/svg+xml"), Form("png", "image/png"))
+PLOTS = (
+    Form("svg", "image/svg+xml", "Plot, SVG", "a figure for a paper"),
+    Form("png", "image/png", "Plot, PNG", "the same as an image"),
+)
+
+
+class ExportDocument(BaseModel):
+    """A file made of a result: its address below the segmentation, its title, and what it is for."""
+
+    path: str
+    title: str
+    description: str
+    queued: bool
+    """Whether a worker writes it when it is first asked for: the answer is 202 until then."""
+
+
+EXPORTS = (
+    ExportDocument(path="clips", title="Clips", description="one animation for each segment", queued=True),
+    ExportDocument(path="keyframes", title="Key-frames", description="one animation of the key poses", queued=True),
+    *(
+        ExportDocument(path=f"{stem}.{form.suffix}", title=form.title, description=form.description, queued=queued)
+        for stem, forms, queued in (("result", FORMS, False), ("plot", PLOTS, True))
+        for form in forms
+    ),
+)
 
 
 def by_suffix(suffix: str) -> Form:

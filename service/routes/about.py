@@ -7,6 +7,7 @@ from core.limits import Limits
 from core.parameters import ALGORITHM, Parameters
 from service.answers import answer
 from service.backend import Behind
+from service.forms import EXPORTS, ExportDocument
 from service.methods import MethodDocument, methods
 
 router = APIRouter(prefix="/v1", tags=["about"])
@@ -20,6 +21,12 @@ class MethodList(BaseModel):
     methods: tuple[MethodDocument, ...]
 
 
+class ExportList(BaseModel):
+    """The files that are made of a result."""
+
+    exports: tuple[ExportDocument, ...]
+
+
 class LimitsDocument(Limits):
     """How large an upload and a model may be."""
 
@@ -31,6 +38,12 @@ async def list_methods() -> Response:
     """The methods, each with the JSON Schema of its parameters."""
     default = Parameters.model_fields["method"].default
     return answer(MethodList(algorithm=ALGORITHM, default=default, methods=methods()))
+
+
+@router.get("/exports", response_model=ExportList)
+async def list_exports() -> Response:
+    """The files that are made of a result: where each is, what it is called, and what it is for."""
+    return answer(ExportList(exports=EXPORTS))
 
 
 @router.get("/limits", response_model=LimitsDocument)
