@@ -2,9 +2,9 @@
 
 `python -m benchmarks.chaos` has 8 clients send 200 takes and fetch their clips twice: from a service that is left in
 peace, and from one whose work-horses, workers, Redis, web process and supervisor get SIGKILL at random (seeded), and
-whose disk fills to the last byte and empties again, where this system lets us mount one. Then it looks for what is
-lost, stuck, done twice, different, or left behind. Writes docs/operations.md; the exit status is 1 where anything is
-wrong.
+whose clock jumps, and whose disk fills to the last byte and empties again, where this system lets us mount one. Then
+it looks for what is lost, stuck, done twice, different, or left behind. Writes docs/operations.md; the exit status is 1
+where anything is wrong.
 """
 
 import argparse
@@ -36,7 +36,9 @@ BETWEEN_SECONDS = (0.3, 2.5)
 MOST_KILLS = 80
 DISK_BYTES = 5 * 2**20  # for each take
 FULL_SECONDS = (0.5, 4.0)
-WEIGHTS = {"work-horse": 10, "worker": 4, "web": 4, "Redis": 3, "pool": 2, "supervisor": 2, "disk": 3}
+FAULTS = ("disk", "clock")
+"""Faults that are no process to kill."""
+WEIGHTS = {"work-horse": 10, "worker": 4, "web": 4, "Redis": 3, "pool": 2, "supervisor": 2, "disk": 3, "clock": 4}
 
 
 def main() -> None:
@@ -62,8 +64,9 @@ def main() -> None:
         "| under fire | |",
         "|---|---|",
         f"| takes, clients, seed | {chosen.jobs}, {CLIENTS}, {chosen.seed} |",
-        f"| killed | {', '.join(f'{count} {name}' for name, count in kills.most_common() if name != 'disk')} |",
+        f"| killed | {', '.join(f'{count} {name}' for name, count in kills.most_common() if name not in FAULTS)} |",
         f"| times the disk was full | {kills['disk']} |",
+        f"| times the clock jumped, by hours or weeks | {kills['clock']} |",
         *(f"| {name} | {count} |" for name, count in sorted(fire.tally.items())),
         *found.rows(),
         f"| in peace, under fire | {quiet_seconds:.0f} s, {seconds:.0f} s |",
@@ -114,6 +117,7 @@ def _fire(house: House, chance: random.Random, running: list["Future[Seen]"], di
         there = {name: pids for name, pids in house.parts().items() if pids and name in WEIGHTS}
         if "worker" not in there or kills.total() >= MOST_KILLS:
             continue
+        there["clock"] = []
         if disk is not None:
             there["disk"] = []
         name = chance.choices(list(there), [WEIGHTS[name] for name in there])[0]
@@ -121,6 +125,10 @@ def _fire(house: House, chance: random.Random, running: list["Future[Seen]"], di
             disk.fill()
             time.sleep(chance.uniform(*FULL_SECONDS))
             disk.empty()
+            kills[name] += 1
+            continue
+        if name == "clock":
+            house.clock.jump(house.jobs().redis, chance)
             kills[name] += 1
             continue
         with suppress(ProcessLookupError):

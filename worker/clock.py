@@ -34,9 +34,9 @@ def gone_evenly(client: Redis, longest_gap: float, now: float) -> bool:
         return True
     until = datetime.fromtimestamp(since + EVEN_SECONDS, UTC)
     log.warning(
-        "The clock jumped, or nobody looked for long (%.1f days since the last look): nothing is deleted for its age "
-        "before the clock has gone evenly for a day, which is on %s. Check the clock of this machine.",
-        (now - last) / 86400,
+        "Nothing is deleted for its age until %s: the clock jumped, or this service was off for long (%.1f days since "
+        "the last look). Check the clock of this machine.",
         f"{until:%Y-%m-%d %H:%M} UTC",
+        (now - last) / EVEN_SECONDS,
     )
     return False

@@ -7,13 +7,13 @@ whoever sets the time of a machine. Redis is no Python, and keeps its own time.
 import datetime
 import os
 import time
-from datetime import datetime as system_datetime
 from pathlib import Path
 from typing import Any
 
 OFFSET = Path(os.environ["JUMPING_CLOCK"])
 
 system_time = time.time
+SystemDatetime = datetime.datetime
 
 
 def jumped_time() -> float:
@@ -23,16 +23,16 @@ def jumped_time() -> float:
 
 class _IsDatetime(type):
     def __instancecheck__(cls, value: object) -> bool:
-        return isinstance(value, system_datetime)
+        return isinstance(value, SystemDatetime)
 
 
-class JumpedDatetime(system_datetime, metaclass=_IsDatetime):
+class JumpedDatetime(SystemDatetime, metaclass=_IsDatetime):
     """`datetime` by the same clock."""
 
     @classmethod
     def now(cls, tz: datetime.tzinfo | None = None) -> Any:
         """The time now."""
-        return system_datetime.fromtimestamp(jumped_time(), tz)
+        return SystemDatetime.fromtimestamp(jumped_time(), tz)
 
 
 time.time = jumped_time

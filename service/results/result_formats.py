@@ -2,27 +2,55 @@
 
 from dataclasses import dataclass
 
+from pydantic import BaseModel
+
 from caesura.service.problems.status_table import Refusal
 
 
 @dataclass(frozen=True)
 class ResultFormat:
-    """One form: the suffix that asks for it, and its media type."""
+    """One form: the suffix that asks for it, its media type, what people call it and what it is for."""
 
     suffix: str
     media_type: str
+    title: str
+    description: str
 
 
 RESULT_FORMATS = (
-    ResultFormat("json", "application/json"),
-    ResultFormat("csv", "text/csv"),
-    ResultFormat("npz", "application/x-npz"),
-    ResultFormat("vtt", "text/vtt"),
-    ResultFormat("eaf", "text/x-eaf+xml"),
+    ResultFormat("json", "application/json", "JSON", "the whole result"),
+    ResultFormat("csv", "text/csv", "CSV", "one line for each segment"),
+    ResultFormat("npz", "application/x-npz", "NPZ", "arrays for NumPy"),
+    ResultFormat("vtt", "text/vtt", "VTT", "subtitles for a video"),
+    ResultFormat("eaf", "text/x-eaf+xml", "EAF", "annotations for ELAN"),
 )
 
 
-PLOT_FORMATS = (ResultFormat("svg", "image/svg+xml"), ResultFormat("png", "image/png"))
+PLOT_FORMATS = (
+    ResultFormat("svg", "image/svg+xml", "Plot, SVG", "a figure for a paper"),
+    ResultFormat("png", "image/png", "Plot, PNG", "the same as an image"),
+)
+
+
+class ExportDocument(BaseModel):
+    """A file made of a result: its address below the segmentation, its title, and what it is for."""
+
+    path: str
+    title: str
+    description: str
+    queued: bool
+    """Whether a worker writes it when it is first asked for: the answer is 202 until then."""
+
+
+EXPORTS = (
+    ExportDocument(path="clips", title="Clips", description="one animation for each segment", queued=True),
+    ExportDocument(path="keyframes", title="Key-frames", description="one animation of the key poses", queued=True),
+    *(
+        ExportDocument(path=f"{stem}.{form.suffix}", title=form.title, description=form.description, queued=queued)
+        for stem, forms, queued in (("result", RESULT_FORMATS, False), ("plot", PLOT_FORMATS, True))
+        for form in forms
+    ),
+)
 
 
 def format_by_suffix(suffix: str) -> ResultFormat:

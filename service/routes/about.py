@@ -7,6 +7,7 @@ from caesura.core.limits import Limits
 from caesura.core.parameters import ALGORITHM, Parameters
 from caesura.service.api_description.method_schemas import MethodDocument, describe_methods
 from caesura.service.backend import BackendDependency
+from caesura.service.results.result_formats import EXPORTS, ExportDocument
 from caesura.service.segmentations.status_response import status_response
 
 router = APIRouter(prefix="/v1", tags=["about"])
@@ -20,6 +21,12 @@ class MethodList(BaseModel):
     methods: tuple[MethodDocument, ...]
 
 
+class ExportList(BaseModel):
+    """The files that are made of a result."""
+
+    exports: tuple[ExportDocument, ...]
+
+
 class LimitsDocument(Limits):
     """How large an upload and a model may be."""
 
@@ -31,6 +38,12 @@ async def list_methods() -> Response:
     """The methods, each with the JSON Schema of its parameters."""
     default = Parameters.model_fields["method"].default
     return status_response(MethodList(algorithm=ALGORITHM, default=default, methods=describe_methods()))
+
+
+@router.get("/exports", response_model=ExportList)
+async def list_exports() -> Response:
+    """The files that are made of a result: where each is, what it is called, and what it is for."""
+    return status_response(ExportList(exports=EXPORTS))
 
 
 @router.get("/limits", response_model=LimitsDocument)

@@ -25,7 +25,7 @@ def test_a_motion_called_like_another_becomes_it_and_a_new_one_gets_a_free_lette
     """Names and motions stay one to one, whatever a person types."""
     renamed, joined, fresh, spaced = answer(f"""{SEGMENTS}
         console.log(JSON.stringify([edits.renameMotion(all, 0, ' walk '), edits.renameMotion(all, 2, 'B'),
-            edits.giveMotion(all, 2, null), edits.renameMotion(all, 1, '  ')].map(told)));
+            edits.assignMotion(all, 2, null), edits.renameMotion(all, 1, '  ')].map(told)));
     """)
     assert [name for *_, name in renamed] == ["walk", "B", "walk", "C"]
     assert [tuple(one[2:]) for one in joined] == [(0, "A"), (1, "B"), (0, "A"), (1, "B")]
@@ -36,8 +36,8 @@ def test_a_motion_called_like_another_becomes_it_and_a_new_one_gets_a_free_lette
 def test_undo_goes_back_by_what_was_done_in_one_go(answer) -> None:
     """Five nudges of one cut are one step; after an undo, something else done forgets what was undone."""
     seen = answer("""
-        import { History } from 'VIEWER/editing/undo_history.js';
-        const history = new History('computed');
+        import { UndoHistory } from 'VIEWER/editing/undo_history.js';
+        const history = new UndoHistory('computed');
         const seen = [];
         history.push('renamed');
         for (const step of [1, 2, 3]) history.push(`nudged ${step}`, 'nudge 4');
@@ -53,5 +53,5 @@ def test_undo_goes_back_by_what_was_done_in_one_go(answer) -> None:
 def test_a_frame_is_in_one_segment(answer) -> None:
     """The first of a segment is in it, the one before is not."""
     assert answer(f"""{SEGMENTS}
-        console.log(JSON.stringify([0, 9, 10, 29, 30, 39].map((frame) => edits.indexAt(all, frame))));
+        console.log(JSON.stringify([0, 9, 10, 29, 30, 39].map((frame) => edits.segmentIndexAt(all, frame))));
     """) == [0, 0, 1, 2, 3, 3]

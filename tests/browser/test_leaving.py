@@ -39,8 +39,8 @@ def test_another_cut_says_where_the_edits_are(result: Page) -> None:
     saved(result)
     result.locator("#motions").fill("2")
     result.locator("#motions").press("Enter")
-    expect(result.locator("#controls-note")).to_contain_text("Now 2 motions")
-    expect(result.locator("#controls-note")).to_contain_text("Your edits are of the cut before")
+    expect(result.locator("#controls-note")).to_contain_text("now has 2 motions")
+    expect(result.locator("#controls-note")).to_contain_text("Your edits belong to the result before")
     result.go_back()
     expect(result.locator("#flag-loop")).to_have_attribute("aria-pressed", "true")
 
@@ -86,8 +86,8 @@ def test_a_figure_that_is_still_prepared_is_not_asked_for_by_who_has_left(page: 
     problem = {"code": "not-finished", "detail": "It is prepared.", "status": 409}
     page.route("**/viewer", lambda route: route.fulfill(status=409, json=problem))
     page.goto(f"/view/{identifier}")
-    expect(page.locator("#stage-note")).to_have_text("The figure is still being prepared.")
+    expect(page.locator("#stage-note")).to_have_text("The service still prepares the figure.")
     page.evaluate("history.pushState(null, '', '/'); dispatchEvent(new PopStateEvent('popstate'))")
     expect(page.locator("#drop")).to_be_visible()
     page.wait_for_timeout(2000)  # it would be asked for again after 1.5 s
-    expect(page.locator("#stage-note")).to_have_text("The figure is still being prepared.")
+    expect(page.locator("#stage-note")).to_have_text("The service still prepares the figure.")

@@ -20,7 +20,7 @@ def test_another_number_of_motions_is_shown_in_place(page: Page, smooth: Path) -
     for unusable in ("many", "1001", "0", "2.5"):
         page.locator("#motions").fill(unusable)
         page.locator("#motions").press("Enter")
-        expect(page.locator("#controls-note")).to_have_text("A whole number of motions up to 1000, or auto.")
+        expect(page.locator("#controls-note")).to_have_text("Type a whole number of motions up to 1000, or auto.")
     page.locator("#motions").fill("2")
     page.locator("#motions").press("Enter")
     expect(page.locator("#summary")).to_contain_text("2 motions", timeout=30_000)
@@ -32,7 +32,7 @@ def test_a_method_that_must_be_told_the_number_gets_the_one_on_screen(page: Page
     opened(page, smooth)
     motions = page.locator("#motions").get_attribute("placeholder")
     page.locator("#method").select_option("spectral")
-    expect(page.locator("#controls-note")).to_contain_text("Now ", timeout=60_000)
+    expect(page.locator("#controls-note")).to_contain_text("now has", timeout=60_000)
     expect(page.locator("#motions")).to_have_value(motions or "")
     expect(page.locator("#auto")).to_be_disabled()
     page.locator("#method").select_option("switching")

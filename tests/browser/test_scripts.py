@@ -9,9 +9,9 @@ import pytest
 def test_a_thinned_curve_keeps_its_peaks_and_its_order(answer) -> None:
     """Of 72,000 frames on 500 columns, a peak of one frame is still there, and a gap stays a gap."""
     frames, values = answer("""
-        import { thinned } from 'VIEWER/timeline/decimation.js';
+        import { decimate } from 'VIEWER/timeline/decimation.js';
         const values = Array.from({ length: 72000 }, (_, i) => i < 2000 ? null : i === 41234 ? 9 : Math.sin(i / 50));
-        console.log(JSON.stringify(thinned(values, 0, 72000, 500)));
+        console.log(JSON.stringify(decimate(values, 0, 72000, 500)));
     """)
     assert len(frames) <= 1000
     assert frames == sorted(frames)
@@ -21,7 +21,9 @@ def test_a_thinned_curve_keeps_its_peaks_and_its_order(answer) -> None:
 
 def test_every_stage_has_words(answer, checkout: Path) -> None:
     """What the worker and the method tell of themselves, and nothing that they never tell, is put to a person."""
-    known = answer("import { STAGES } from 'VIEWER/start/stages.js'; console.log(JSON.stringify(Object.keys(STAGES)));")
+    known = answer(
+        "import { STAGES } from 'VIEWER/start/progress.js'; console.log(JSON.stringify(Object.keys(STAGES)));"
+    )
     sources = [
         path.read_text(encoding="utf-8") for part in ("core", "worker") for path in checkout.glob(f"{part}/**/*.py")
     ]
@@ -32,8 +34,8 @@ def test_every_stage_has_words(answer, checkout: Path) -> None:
 def test_a_short_curve_is_drawn_as_it_is(answer) -> None:
     """Where every frame has a column, nothing is left out."""
     frames, values = answer("""
-        import { thinned } from 'VIEWER/timeline/decimation.js';
-        console.log(JSON.stringify(thinned([1, 2, 3, 4, 5], 0, 5, 500)));
+        import { decimate } from 'VIEWER/timeline/decimation.js';
+        console.log(JSON.stringify(decimate([1, 2, 3, 4, 5], 0, 5, 500)));
     """)
     assert frames == [0, 1, 2, 3, 4]
     assert values == [1, 2, 3, 4, 5]
@@ -42,8 +44,8 @@ def test_a_short_curve_is_drawn_as_it_is(answer) -> None:
 def test_zooming_keeps_the_frame_under_the_pointer_and_the_take_in_view(answer) -> None:
     """In and out again is where one began; nothing outside the take is ever shown."""
     steps = answer("""
-        import { Span } from 'VIEWER/timeline/visible_range.js';
-        const span = new Span(1000);
+        import { VisibleRange } from 'VIEWER/timeline/visible_range.js';
+        const span = new VisibleRange(1000);
         const seen = [];
         const note = () => seen.push([span.from, span.to]);
         span.zoom(4, 300); note();
@@ -63,9 +65,9 @@ def test_two_fingers_keep_the_frames_under_them(answer) -> None:
     """Apart they zoom in, aside they move; one finger alone, or two on the same place, change nothing; of three, the
     outer ones count."""
     on, seen = answer("""
-        import { Pinch } from 'VIEWER/timeline/pinch.js';
-        import { Span } from 'VIEWER/timeline/visible_range.js';
-        const span = new Span(1000);
+        import { Pinch } from 'VIEWER/timeline/pointer.js';
+        import { VisibleRange } from 'VIEWER/timeline/visible_range.js';
+        const span = new VisibleRange(1000);
         const pinch = new Pinch(span);
         const seen = [];
         const note = () => seen.push([Math.round(span.from), Math.round(span.to)]);
@@ -89,12 +91,12 @@ def test_two_fingers_keep_the_frames_under_them(answer) -> None:
 def test_playing_ends_with_the_take_and_waits_for_what_is_not_there(answer) -> None:
     """The clock never leaves the take, waits for what is not loaded, and repeats a segment that is looped."""
     seen = answer("""
-        import { Clock } from 'VIEWER/timeline/playhead.js';
+        import { Playhead } from 'VIEWER/timeline/playhead.js';
         let now = 0;
         const waiting = [];
         globalThis.requestAnimationFrame = (action) => waiting.push(action);
         const step = () => waiting.splice(0).forEach((action) => action(now += 50));
-        const clock = new Clock(100, 30);
+        const clock = new Playhead(100, 30);
         clock.seek(95);
         clock.toggle();
         for (let i = 0; i < 9; i++) step();
@@ -105,7 +107,7 @@ def test_playing_ends_with_the_take_and_waits_for_what_is_not_there(answer) -> N
         const frames = [];
         for (let i = 0; i < 40; i++) { step(); frames.push(clock.frame); }
         let loaded = false;
-        const late = new Clock(100, 30, () => loaded);
+        const late = new Playhead(100, 30, () => loaded);
         late.toggle();
         for (let i = 0; i < 5; i++) step();
         const held = late.frame;
@@ -119,9 +121,9 @@ def test_playing_ends_with_the_take_and_waits_for_what_is_not_there(answer) -> N
 def test_a_name_is_shortened_to_what_there_is_room_for(answer) -> None:
     """What does not fit ends in three dots and keeps its mark; where not even that fits, nothing is written."""
     assert answer("""
-        import { fitted } from 'VIEWER/timeline/segment_track.js';
+        import { fitText } from 'VIEWER/timeline/segment_track.js';
         const context = { measureText: (text) => ({ width: 10 * [...text].length }) };
-        console.log(JSON.stringify([200, 110, 60, 30, 15].map((room) => fitted(context, 'walk forward', ' ↻', room))));
+        console.log(JSON.stringify([200, 110, 60, 30, 15].map((room) => fitText(context, 'walk forward', ' ↻', room))));
     """) == ["walk forward ↻", "walk for… ↻", "wal… ↻", "", ""]
 
 
@@ -129,23 +131,23 @@ def test_a_second_around_a_cut_is_played_once_whatever_is_repeated(answer) -> No
     """It ends at the cut, also where every segment is repeated, if it is asked for while it plays, and if the cut
     has to be fetched first."""
     seen = answer("""
-        import { Clock } from 'VIEWER/timeline/playhead.js';
+        import { Playhead } from 'VIEWER/timeline/playhead.js';
         let now = 0;
         const waiting = [];
         globalThis.requestAnimationFrame = (action) => waiting.push(action);
         const step = () => waiting.splice(0).forEach((action) => action(now += 50));
-        const clock = new Clock(100, 30);
+        const clock = new Playhead(100, 30);
         clock.listen(() => { if (!clock.loop && !clock.until) clock.loop = [0, 50]; });
         const told = [];
         clock.listen(() => told.push([clock.frame, clock.playing]));
-        clock.once(35, 65, 50);
+        clock.playOnce(35, 65, 50);
         for (let i = 0; i < 5; i++) step();
-        clock.once(35, 65, 50);
+        clock.playOnce(35, 65, 50);
         for (let i = 0; i < 60; i++) step();
         const most = Math.max(...told.map(([frame]) => frame));
         let loaded = true;
-        const late = new Clock(100, 30, () => loaded);
-        late.once(35, 65, 50);
+        const late = new Playhead(100, 30, () => loaded);
+        late.playOnce(35, 65, 50);
         while (late.frame < 63) step();
         loaded = false;
         for (let i = 0; i < 9; i++) step();

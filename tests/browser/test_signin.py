@@ -16,7 +16,7 @@ def test_a_person_signs_in_with_a_key_and_out_again(browser: Browser, checkout, 
         context = browser.new_context(base_url=guarded.url)
         page = context.new_page()
         page.goto("/")
-        asked = page.get_by_role("dialog", name="This service wants a key")
+        asked = page.get_by_role("dialog", name="This service needs a key")
         asked.get_by_label("Key").fill("caesura_wrong")
         asked.get_by_role("button", name="Sign in").click()
         expect(asked.get_by_role("alert")).to_contain_text("opens nothing")

@@ -21,6 +21,18 @@ def test_each_method_comes_with_the_schema_of_its_parameters(idle):
         assert needed or method["parameters"]["properties"]["motions"]["default"] == "auto"
 
 
+def test_each_export_has_an_address_that_openapi_knows(idle):
+    """Below the segmentation; titles and descriptions are there for menus."""
+    paths = idle.http.get("/openapi.json").json()["paths"]
+    exports = idle.http.get("/v1/exports").json()["exports"]
+    for export in exports:
+        stem, dot, _ = export["path"].partition(".")
+        assert f"/v1/segmentations/{{identifier}}/{stem}{dot and '.{suffix}'}" in paths
+        assert export["title"]
+        assert export["description"]
+    assert len({export["title"] for export in exports}) == len(exports)
+
+
 def test_limits_are_those_of_this_installation(idle):
     """All of them, with the upload's own."""
     assert idle.http.get("/v1/limits").json() == {**Limits().model_dump(), "max_upload_bytes": UPLOAD_LIMIT}

@@ -41,7 +41,7 @@ def test_it_lists_the_calls_of_the_blueprint(document):
         "POST /v1/segmentations", "GET /v1/segmentations", "GET /v1/segmentations/{identifier}",
         "GET /v1/segmentations/{identifier}/events", "DELETE /v1/segmentations/{identifier}",
         "GET /v1/segmentations/{identifier}/result", "GET /v1/segmentations/{identifier}/viewer",
-        "GET /v1/methods", "GET /v1/limits", "GET /healthz", "GET /readyz", "GET /metrics",
+        "GET /v1/methods", "GET /v1/exports", "GET /v1/limits", "GET /healthz", "GET /readyz", "GET /metrics",
     } <= listed  # fmt: skip
     assert "GET /" not in listed
 

@@ -6,6 +6,7 @@ whole or not there: written aside, then moved to its name.
 
 import errno
 import os
+import re
 import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -26,6 +27,7 @@ if TYPE_CHECKING:  # a type alone: it is not there at run time
 
 Kind = Literal["uploads", "analyses", "viewer", "exports"]
 
+KEY = re.compile(r"[a-z]+/[0-9a-f]{32}")
 CHUNK_BYTES = 1 << 17
 """Of a local file, read at once: a client that reads slowly holds about three of them."""
 SENT_BYTES, PIECE_BYTES = 1 << 20, 8 << 20
@@ -150,8 +152,9 @@ class Blobs:
 
     def _existing(self, key: str) -> Path:
         path = (self._folder or Path()) / key
-        if not path.is_file():
-            raise BlobMissing(key)
+        with _missing(key):
+            if not path.is_file():
+                raise FileNotFoundError
         return path
 
 
@@ -164,7 +167,9 @@ def _read(file: BinaryIO, start: int, end: int) -> Iterator[bytes]:
 
 @contextmanager
 def _missing(key: str) -> Iterator[None]:
-    """obstore's word for a missing blob, as ours."""
+    """obstore's word for a missing blob, as ours. Keys come from Redis: what is none leads nowhere."""
+    if not KEY.fullmatch(key):
+        raise BlobMissing(key)
     try:
         yield
     except (NotFoundError, FileNotFoundError) as missing:

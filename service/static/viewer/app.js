@@ -1,19 +1,23 @@
-// The page: which of its four faces it shows (start, waiting, refused, result), and what leads from one to another.
+// The page: what leads from one of its views to another, and every control of a result, wired once.
 
-import { frameOfAddress, remember, resultOfAddress, revisionOfAddress } from './address.js';
+import { showView, frameInAddress, showProblem, rememberFrame, resultInAddress, revisionInAddress } from './views.js';
 import * as api from './service/api.js';
-import { controls, note, offerMethods } from './panels/segmentation_form.js';
+import { addSegmentationForm, showFormNote, offerMethods, resegment } from './panels/segmentation_form.js';
 import { $, announce } from './dom.js';
-import { face, refuse } from './views.js';
-import { drawHeatKey } from './figure/heat.js';
-import { beginProgress, progress, statusProgress } from './start/progress.js';
+import { resetProgress, showStage, showStatus } from './start/progress.js';
 import { showRecent } from './start/recent_animations.js';
 import { Result } from './result.js';
-import { about, count } from './number_format.js';
+import { takeSummary, count } from './number_format.js';
 import { acceptFiles } from './start/file_drop.js';
-import { recut, openRevision } from './panels/variants.js';
-import { finished } from './service/job_status.js';
-import { wire } from './wiring.js';
+import { waitUntilDone } from './service/job_status.js';
+import { addEditToolbar } from './editing/edit_toolbar.js';
+import { addKeyboard } from './keyboard.js';
+import { addReviewTools } from './panels/cut_review.js';
+import { addExportMenu } from './panels/export_menu.js';
+import { openRevision, addRevisionList, showRevisions } from './panels/revision_list.js';
+import { addSegmentList } from './panels/segment_list.js';
+import { addTabs } from './roving_focus.js';
+import { addPlayerControls, addViewControls } from './timeline/navigation.js';
 
 let shown = null; // the Result on screen
 let task = new AbortController(); // what the page is busy with; a newer one ends it
@@ -28,8 +32,8 @@ function begin() {
 function wait(name, cancel = async () => {}) {
   const signal = begin();
   $('subject').textContent = '';
-  beginProgress(name);
-  face('waiting', name);
+  resetProgress(name);
+  showView('waiting', name);
   onCancel(cancel);
   return signal;
 }
@@ -44,10 +48,10 @@ async function openFiles(files) {
   const { name } = files[0];
   const signal = wait(name);
   try {
-    progress('upload', 0);
-    const animation = await api.upload(files, (share) => progress('upload', share), signal);
+    showStage('upload', 0);
+    const animation = await api.upload(files, (share) => showStage('upload', share), signal);
     await openSegmentation(await api.segment(animation.id), signal);
-  } catch (problem) { refuse(problem, name, () => openFiles(files)); }
+  } catch (problem) { showProblem(problem, name, () => openFiles(files)); }
 }
 
 /** An animation seen before: its newest segmentation that is there or on its way, else one more. */
@@ -58,7 +62,7 @@ async function openAnimation(animation) {
     const { segmentations } = await api.segmentationsOf(id);
     const being = (...states) => segmentations.find(({ status }) => states.includes(status));
     await openSegmentation(being('done') || being('queued', 'running') || await api.segment(id), signal);
-  } catch (problem) { refuse(problem, name, () => openAnimation(animation)); }
+  } catch (problem) { showProblem(problem, name, () => openAnimation(animation)); }
 }
 
 async function openSegmentation({ id }, signal) {
@@ -69,66 +73,98 @@ async function openSegmentation({ id }, signal) {
 
 /** A segmentation in any state: wait until it is over, then show it. */
 async function follow(id, signal) {
-  const status = await finished(id, (now) => {
+  const status = await waitUntilDone(id, (now) => {
     if (now.status === 'running') import('./figure/scene.js'); // needed soon: fetched while we wait
     if (now.name) $('waiting-name').textContent = now.name;
     onCancel(now.status === 'done' ? async () => {} : () => api.cancel(id).catch(() => {})); // to cancel what is done is to delete it
-    statusProgress(now);
+    showStatus(now);
   }, signal);
   const viewer = api.viewer(id); // asked for beside the result, as the figure takes longest
   viewer.catch(() => {}); // said where it is shown
-  const result = await api.result(id, revisionOfAddress() ?? status.revision);
+  const result = await api.result(id, revisionInAddress() ?? status.revision);
   if (!signal.aborted) show(result, status, viewer);
 }
 
 function show(result, status, viewer) {
   shown?.close();
-  note('');
-  face('result', status.name);
-  $('subject').textContent = [status.name, about(result)].filter(Boolean).join(' · ');
+  showFormNote('');
+  showView('result', status.name);
+  $('subject').textContent = [status.name, takeSummary(result)].filter(Boolean).join(' · ');
   $('result-title').textContent = status.name;
   announce(`${status.name}: ${count(result.motions, 'motion')} in ${count(result.segments.length, 'segment')}.`);
   shown = new Result(result, status, changed);
-  shown.presence.look(document.querySelector('#looks input:checked').value);
-  const frame = frameOfAddress();
-  if (frame !== null) shown.clock.seek(frame);
-  shown.clock.listen(remember);
-  shown.presence.enter(result.id, viewer);
+  shown.figurePanel.colourBy(document.querySelector('#looks input:checked').value);
+  const frame = frameInAddress();
+  if (frame !== null) shown.playhead.seek(frame);
+  shown.playhead.listen(rememberFrame);
+  shown.figurePanel.open(result.id, viewer);
   changed();
 }
 
 /** Whether the result on screen may be left: open edits are kept first. */
 async function leave() {
-  shown?.clock.toggle(false);
+  shown?.playhead.toggle(false);
   if (!shown?.editor.saving.open) return true;
-  return shown.editor.saving.flush().then(() => true, () => confirm('Your last edits could not be saved. Leave all the same?'));
+  return shown.editor.saving.flush().then(() => true, () => confirm('The service could not save your last edits. Leave anyway?'));
 }
 
 /** What the address asks for. */
 async function route() {
-  const id = resultOfAddress();
+  const id = resultInAddress();
   if (id && id === onScreen()?.document.id) return;
-  if (!(await leave())) return history.pushState(null, '', `/view/${shown.document.id}#frame=${shown.clock.frame}`);
+  if (!(await leave())) return history.pushState(null, '', `/view/${shown.document.id}#frame=${shown.playhead.frame}`);
   if (!id) return start();
   const signal = wait('');
-  try { await follow(id, signal); } catch (problem) { refuse(problem, '', route); }
+  try { await follow(id, signal); } catch (problem) { showProblem(problem, '', route); }
 }
 
 function start() {
   begin();
   $('subject').textContent = '';
-  face('start');
+  showView('start');
   shown?.close();
   shown = null;
   showRecent(openAnimation);
 }
 
+/** Wire every control of the result. Answers a function to call whenever what is shown has changed. */
+function wire() {
+  addPlayerControls(onScreen);
+  addViewControls(onScreen);
+  const showTab = addTabs($('tabs'));
+  addSegmentList();
+  addRevisionList();
+  addReviewTools(() => { showTab('tab-review'); return onScreen()?.review; });
+  addKeyboard(onScreen);
+  const editor = () => onScreen()?.editor;
+  const open = (number, dropping) => openRevision(shown, number, dropping);
+  const showEdits = addEditToolbar(editor, { loadTheirs: () => open(editor().saving.theirs, true) });
+  const showLinks = addExportMenu(() => {
+    if (!editor()) return null;
+    const { saving } = editor();
+    return { id: shown.document.id, name: shown.status.name, revision: saving.shown, dirty: saving.open, keep: () => saving.flush() };
+  });
+  addEventListener('beforeunload', (event) => { if (editor()?.saving.open) event.preventDefault(); });
+  addEventListener('visibilitychange', () => { if (document.hidden && editor()?.saving.kind === 'waiting') editor().saving.flush().catch(() => {}); });
+  let listed = '';
+  return () => {
+    if (!editor()) return;
+    showEdits();
+    showLinks();
+    const { saving } = editor();
+    const state = `${shown.document.id} ${saving.shown} ${saving.newest}`;
+    if (state === listed) return;
+    listed = state;
+    showRevisions(shown.document.id, saving.shown, open);
+    if (location.search && saving.shown === saving.newest) history.replaceState(null, '', location.pathname + location.hash);
+  };
+}
+
 const onScreen = () => (document.body.dataset.view === 'result' ? shown : null);
-const changed = wire({ shown: onScreen, openRevision: (...asked) => openRevision(shown, ...asked) });
-controls({ recut: (changes) => recut(shown, changes, begin()), current: () => shown.document });
+const changed = wire();
+addSegmentationForm({ resegment: (changes) => resegment(shown, changes, begin()), current: () => shown.document });
 acceptFiles(openFiles);
 addEventListener('popstate', route);
-addEventListener('hashchange', () => { const frame = frameOfAddress(); if (frame !== null) shown?.clock.seek(frame); });
-drawHeatKey();
+addEventListener('hashchange', () => { const frame = frameInAddress(); if (frame !== null) shown?.playhead.seek(frame); });
 offerMethods();
 route();

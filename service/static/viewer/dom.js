@@ -14,16 +14,16 @@ export function make(tag, properties = {}, ...children) {
 }
 
 /** Words for who listens, between those for who looks. */
-export const unseen = (text) => make('span', { className: 'unseen' }, text);
+export const screenReaderText = (text) => make('span', { className: 'unseen' }, text);
 
 /** Say a sentence to who listens instead of looking. */
 export const announce = (sentence) => { $('announce').textContent = sentence; };
 
 /** A colour of the style sheet, for canvases. */
-export const styled = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+export const styleValue = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 /** Call back when the person's system goes from light to dark or back, until `signal` ends it. */
-export function onTheme(listener, signal) {
+export function onThemeChange(listener, signal) {
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', listener, { signal });
 }
 
@@ -35,7 +35,7 @@ export function onResize(element, listener, signal) {
 }
 
 /** At most one call a screen frame, however often it is asked for. */
-export function onceAFrame(action) {
+export function oncePerFrame(action) {
   let asked = false;
   return () => {
     if (asked) return;
@@ -45,7 +45,7 @@ export function onceAFrame(action) {
 }
 
 /** Resolves once the screen shows what the page is now; in a tab that nobody sees, soon. */
-export function painted() {
+export function nextPaint() {
   return new Promise((done) => {
     requestAnimationFrame(() => setTimeout(done));
     setTimeout(done, 200);
@@ -53,7 +53,7 @@ export function painted() {
 }
 
 /** Scroll a list, and nothing around it, until a row of it is seen. The list is its rows' offset parent. */
-export function inView(list, row) {
+export function scrollToRow(list, row) {
   const { scrollTop, clientHeight } = list;
   if (!row || !clientHeight) return; // another list is shown
   const top = row.offsetTop;
@@ -61,7 +61,7 @@ export function inView(list, row) {
 }
 
 /** A canvas made as sharp as the screen; answers its context, in CSS pixels, with its size. */
-export function sharp(canvas) {
+export function sharpContext(canvas) {
   const { clientWidth: width, clientHeight: height } = canvas;
   const ratio = devicePixelRatio || 1;
   if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {

@@ -1,76 +1,108 @@
-// The page by keyboard alone. A key that types into a field is the field's.
+// The page by keyboard alone, and the list of its keys on `?`. A key that types into a field is the field's.
 
-import { $ } from './dom.js';
-import { isPointed } from './pointed.js';
-import { jump } from './timeline/navigation.js';
+import { $, make } from './dom.js';
+import { goToNeighbour } from './timeline/navigation.js';
 
-/** `shown()` is the result on screen, or null; `askHelp` opens the list of keys. */
-export function keyboard(shown, askHelp) {
+/** Every key, by groups: how the list shows it, what it does in words, and the actions by the names of keys. */
+function keyTable(shown) {
   const step = (frames) => {
-    const { clock, span, editor } = shown();
+    const { playhead, range, editor } = shown();
     if (editor.cut >= 0) return editor.nudge(frames);
-    clock.toggle(false);
-    clock.seek(clock.frame + frames);
-    span.reveal(clock.frame);
+    playhead.toggle(false);
+    playhead.seek(playhead.frame + frames);
+    range.reveal(playhead.frame);
   };
-  const to = (frame) => { shown().clock.seek(frame); shown().span.reveal(frame); };
-  const zoom = (factor) => shown().span.zoom(factor, shown().clock.frame);
+  const goTo = (frame) => { shown().playhead.seek(frame); shown().range.reveal(frame); };
+  const zoom = (factor) => shown().range.zoom(factor, shown().playhead.frame);
+  const merge = (event) => shown().editor.merge(event.shiftKey);
   const click = (id) => () => $(id).click();
-  const keys = {
-    ' ': () => shown().clock.toggle(),
-    ArrowLeft: (event) => step(event.shiftKey ? -10 : -1),
-    ArrowRight: (event) => step(event.shiftKey ? 10 : 1),
-    Home: () => to(0),
-    End: () => to(shown().clock.frames - 1),
-    ',': () => jump(shown(), -1),
-    '.': () => jump(shown(), 1),
-    '+': () => zoom(1.6),
-    '=': () => zoom(1.6),
-    '-': () => zoom(1 / 1.6),
-    0: () => shown().span.all(),
-    '[': () => shown().editor.selectNext(-1),
-    ']': () => shown().editor.selectNext(1),
-    Escape: () => shown().editor.select(-1),
-    m: (event) => shown().editor.merge(event.shiftKey),
-    Delete: (event) => shown().editor.merge(event.shiftKey),
-    Backspace: (event) => shown().editor.merge(event.shiftKey),
-    s: () => shown().editor.split(),
-    r: () => { $('motion-name').focus(); $('motion-name').select(); },
-    o: () => shown().editor.flag('loop'),
-    x: () => shown().editor.flag('discard'),
-    n: click('doubtful'),
-    p: click('around'),
-    c: click('checked'),
-    l: click('loop'),
-    f: click('reframe'),
-  };
+  return [
+    ['Play', [
+      ['Space', 'play or pause', { ' ': () => shown().playhead.toggle() }],
+      ['← →', 'go one frame back or on; with Shift ten', {
+        ArrowLeft: (event) => step(event.shiftKey ? -10 : -1), ArrowRight: (event) => step(event.shiftKey ? 10 : 1),
+      }],
+      ['Home End', 'go to the first or last frame', { Home: () => goTo(0), End: () => goTo(shown().playhead.frames - 1) }],
+      [', .', 'go to the segment before or after', { ',': () => goToNeighbour(shown(), -1), '.': () => goToNeighbour(shown(), 1) }],
+      ['L', 'repeat the segment', { l: click('loop') }],
+    ]],
+    ['Cuts', [
+      ['[ ]', 'select the cut before or after', { '[': () => shown().editor.selectNext(-1), ']': () => shown().editor.selectNext(1) }],
+      ['← →', 'move the selected cut one frame; with Shift ten', {}],
+      ['M Del', 'remove the cut; with Shift, keep the motion after it', { m: merge, Delete: merge, Backspace: merge }],
+      ['Esc', 'select no cut', { Escape: () => shown().editor.select(-1) }],
+      ['S', 'split the segment at the playhead', { s: () => shown().editor.split() }],
+    ]],
+    ['Segments', [
+      ['R', 'rename the motion', { r: () => { $('motion-name').focus(); $('motion-name').select(); } }],
+      ['O', 'mark the clip as a loop', { o: () => shown().editor.toggleFlag('loop') }],
+      ['X', 'discard the segment', { x: () => shown().editor.toggleFlag('discard') }],
+      ['Ctrl Z', 'undo', {}], ['Ctrl Shift Z', 'redo', {}],
+    ]],
+    ['Review', [
+      ['N', 'go to the next doubtful cut', { n: click('doubtful') }],
+      ['P', 'play one second around the cut', { p: click('around') }],
+      ['C', 'mark the cut as checked and go on', { c: click('checked') }],
+    ]],
+    ['View', [
+      ['+ −', 'zoom in or out', { '+': () => zoom(1.6), '=': () => zoom(1.6), '-': () => zoom(1 / 1.6) }],
+      ['0', 'show the whole take', { 0: () => shown().range.showAll() }],
+      ['F', 'show the whole figure', { f: click('reframe') }],
+      ['?', 'show these keys', {}],
+    ]],
+  ];
+}
+
+/** Wire all keys once. `shown()` is the result on screen, or null. */
+export function addKeyboard(shown) {
+  const table = keyTable(shown);
+  const actions = Object.assign({}, ...table.flatMap(([, keys]) => keys.map(([, , byName]) => byName)));
+  const showHelp = addHelp(table);
   addEventListener('keydown', (event) => {
-    if (event.altKey || document.querySelector('dialog[open]') || isOwn(event)) return;
-    if (event.ctrlKey || event.metaKey) return history(event, shown);
-    if (event.key === '?') return askHelp();
-    const action = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    if (event.altKey || document.querySelector('dialog[open]') || belongsToControl(event)) return;
+    if (event.ctrlKey || event.metaKey) return undoOrRedo(event, shown);
+    if (event.key === '?') return showHelp();
+    const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!shown() || !action) return;
     event.preventDefault();
     action(event);
   });
   addEventListener('keyup', (event) => { // when some browsers press a button
-    if (event.key === ' ' && shown() && !isOwn(event)) event.preventDefault();
+    if (event.key === ' ' && shown() && !belongsToControl(event)) event.preventDefault();
   });
 }
 
+/** Fill the list of keys; answers a function that opens it. */
+function addHelp(table) {
+  const dialog = $('help');
+  $('help-keys').replaceChildren(...table.map(([title, keys]) => make('section', {}, make('h3', {}, title),
+    make('dl', {}, ...keys.flatMap(([key, words]) => [
+      make('dt', {}, ...key.split(' ').map((part) => make('kbd', {}, part))), make('dd', {}, words)])))));
+  const open = () => dialog.open || dialog.showModal();
+  $('ask-help').addEventListener('click', open);
+  dialog.addEventListener('click', (event) => { if (event.target === dialog) dialog.close(); });
+  return open;
+}
+
 /** Whether a key is for the control that has the focus: it types, chooses or presses there. */
-function isOwn({ key, target }) {
+function belongsToControl({ key, target }) {
   if (target.matches('input:not([type=radio]):not([type=checkbox]), textarea')) return true;
-  if (key === ' ' && isPointed(target)) return false;
+  if (key === ' ' && target === clicked) return false; // who clicked a button means by the next Space to play
   if (target.matches('select')) return true;
   if (key.startsWith('Arrow')) return target.matches('input[type=radio]');
   return [' ', 'Enter'].includes(key) && target.matches('button, a, label, summary, input');
 }
 
 /** Ctrl+Z, Ctrl+Shift+Z and Ctrl+Y. */
-function history(event, shown) {
+function undoOrRedo(event, shown) {
   const key = event.key.toLowerCase();
   if (!shown() || !['z', 'y'].includes(key)) return;
   event.preventDefault();
   if (key === 'y' || event.shiftKey) shown().editor.redo(); else shown().editor.undo();
 }
+
+let byPointer = false;
+let clicked = null; // what has the focus because the pointer gave it, not the Tab key
+addEventListener('pointerdown', () => { byPointer = true; }, true);
+addEventListener('keydown', () => { byPointer = false; }, true);
+addEventListener('focusin', ({ target }) => { clicked = byPointer ? target : null; });

@@ -15,34 +15,34 @@ const luminance = (hex) => {
   return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2];
 };
 
-export const colourOf = (motion) => COLOURS[motion % COLOURS.length];
+export const motionColour = (motion) => COLOURS[motion % COLOURS.length];
 
 /** Black or white, whichever is read more easily on the colour. */
-export const inkOn = (hex) => (luminance(hex) > 0.179 ? '#14161a' : '#ffffff');
+export const inkOver = (hex) => (luminance(hex) > 0.179 ? '#14161a' : '#ffffff');
 
 /** Which texture goes over the colour: 0 none, 1 stripes, 2 dots, 3 both ways striped, then again. */
-const textureOf = (motion) => Math.floor(motion / COLOURS.length) % 4;
+const textureNumber = (motion) => Math.floor(motion / COLOURS.length) % 4;
 
 const tiles = new Map();
 
 /** A canvas fill of a motion: its colour and, from the thirteenth motion on, its texture. */
-export function fillOf(motion, context) {
-  if (!textureOf(motion)) return colourOf(motion);
+export function motionFill(motion, context) {
+  if (!textureNumber(motion)) return motionColour(motion);
   return context.createPattern(tileOf(motion), 'repeat');
 }
 
 function tileOf(motion) {
-  if (!tiles.has(motion)) tiles.set(motion, drawn(motion, textureOf(motion)));
+  if (!tiles.has(motion)) tiles.set(motion, drawTile(motion, textureNumber(motion)));
   return tiles.get(motion);
 }
 
-function drawn(motion, texture) {
+function drawTile(motion, texture) {
   const tile = document.createElement('canvas');
   tile.width = tile.height = 12;
   const context = tile.getContext('2d');
-  context.fillStyle = colourOf(motion);
+  context.fillStyle = motionColour(motion);
   context.fillRect(0, 0, 12, 12);
-  context.strokeStyle = context.fillStyle = inkOn(colourOf(motion));
+  context.strokeStyle = context.fillStyle = inkOver(motionColour(motion));
   context.globalAlpha = 0.45;
   context.lineWidth = 2;
   const stroke = (points) => { context.beginPath(); points.forEach(([x, y], i) => (i % 2 ? context.lineTo(x, y) : context.moveTo(x, y))); context.stroke(); };
@@ -53,19 +53,19 @@ function drawn(motion, texture) {
 }
 
 /** The same fill for lists; the style sheet draws the textures. */
-export function swatch(motion) {
+export function motionSwatch(motion) {
   const mark = document.createElement('i');
   mark.className = 'swatch';
   mark.setAttribute('aria-hidden', 'true');
-  mark.style.backgroundColor = colourOf(motion);
-  mark.dataset.texture = textureOf(motion);
-  mark.style.color = inkOn(colourOf(motion));
+  mark.style.backgroundColor = motionColour(motion);
+  mark.dataset.texture = textureNumber(motion);
+  mark.style.color = inkOver(motionColour(motion));
   return mark;
 }
 
 /** Write a segment's name into an element, on its motion's colour. */
-export function tagged(element, segment) {
+export function writeTag(element, segment) {
   element.textContent = segment.name;
-  element.style.background = colourOf(segment.motion);
-  element.style.color = inkOn(colourOf(segment.motion));
+  element.style.background = motionColour(segment.motion);
+  element.style.color = inkOver(motionColour(segment.motion));
 }

@@ -1,7 +1,7 @@
-// A list that is one stop of the Tab key: arrows move within it.
+// Lists and tabs that are one stop of the Tab key: arrows move within (the roving tabindex of the ARIA authoring guide).
 
 /** Wire `container`: of the elements `selector` finds, one can be tabbed to; arrows, Home and End move it. */
-export function roving(container, selector, { horizontal = false } = {}) {
+export function addRovingFocus(container, selector, { horizontal = false } = {}) {
   const [back, on] = horizontal ? ['ArrowLeft', 'ArrowRight'] : ['ArrowUp', 'ArrowDown'];
   const items = () => [...container.querySelectorAll(selector)];
   container.addEventListener('keydown', (event) => {
@@ -13,17 +13,34 @@ export function roving(container, selector, { horizontal = false } = {}) {
     event.preventDefault();
     event.stopPropagation(); // the page's own arrows step frames
     const next = list[Math.max(0, Math.min(list.length - 1, to))];
-    stop(container, selector, next);
+    setTabStop(container, selector, next);
     next.focus();
   });
   container.addEventListener('focusin', (event) => {
     const item = event.target.closest(selector);
-    if (item) stop(container, selector, item);
+    if (item) setTabStop(container, selector, item);
   });
 }
 
 /** Make `item` the one that the Tab key stops at; without it, the first. */
-export function stop(container, selector, item = container.querySelector(selector)) {
+export function setTabStop(container, selector, item = container.querySelector(selector)) {
   for (const other of container.querySelectorAll(`${selector}[tabindex="0"]`)) if (other !== item) other.tabIndex = -1;
   if (item) item.tabIndex = 0;
+}
+
+/** Wire a tablist. Each tab names its panel by `aria-controls`. Answers a function that shows a tab by its id. */
+export function addTabs(list) {
+  const all = [...list.querySelectorAll('[role=tab]')];
+  const show = (id) => {
+    for (const tab of all) {
+      const chosen = tab.id === id;
+      tab.setAttribute('aria-selected', String(chosen));
+      document.getElementById(tab.getAttribute('aria-controls')).hidden = !chosen;
+      if (chosen) setTabStop(list, '[role=tab]', tab);
+    }
+  };
+  addRovingFocus(list, '[role=tab]', { horizontal: true });
+  list.addEventListener('click', (event) => event.target.closest('[role=tab]') && show(event.target.closest('[role=tab]').id));
+  list.addEventListener('focusin', (event) => event.target.closest('[role=tab]') && show(event.target.closest('[role=tab]').id));
+  return show;
 }

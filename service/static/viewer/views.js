@@ -1,22 +1,44 @@
-// The four faces of the page: start, waiting, refused and result. The style sheet shows the one that is set.
+// The four views of the page (start, waiting, refused, result), and what the address says of the one that is shown.
 
 import { Problem } from './service/api.js';
 import { $ } from './dom.js';
 
 /** Show one of them. */
-export function face(name, title = '') {
+export function showView(name, title = '') {
   document.body.dataset.view = name;
   document.title = title ? `${title} · Caesura` : 'Caesura';
 }
 
 /** Say what went wrong, and with what. `again()` tries it once more, where what went wrong may pass. */
-export function refuse(problem, name, again) {
+export function showProblem(problem, name, again) {
   if (problem.name === 'AbortError') return;
   if (!(problem instanceof Problem)) console.error(problem);
   const { pointer, parameter, frame, code, status } = problem.document || {};
-  $('refused-detail').textContent = problem instanceof Problem ? problem.message : 'The page itself failed; the console says where.';
+  $('refused-detail').textContent = problem instanceof Problem ? problem.message : 'The page has a fault. The console of the browser says where.';
   $('refused-where').textContent = [name, code, pointer, parameter, frame !== undefined && `frame ${frame}`].filter(Boolean).join(' · ');
   $('refused-again').hidden = code !== 'unreachable' && !(status >= 500);
   $('refused-again').onclick = again;
-  face('refused', 'Problem');
+  showView('refused', 'Problem');
+}
+
+const REST = 250; // ms that the moment rests before it is written down: browsers refuse to be told sixty times a second
+
+export const resultInAddress = () => /^\/view\/([^/]+)$/.exec(location.pathname)?.[1];
+export const revisionInAddress = () => numberAfter(location.search, /[?&]revision=(\d+)/);
+export const frameInAddress = () => numberAfter(location.hash, /[#&]frame=(\d+)/);
+
+function numberAfter(text, pattern) {
+  const match = pattern.exec(text);
+  return match ? Number(match[1]) : null;
+}
+
+let resting;
+
+/** Keep the moment in the address, so that a link opens there. */
+export function rememberFrame(playhead) {
+  clearTimeout(resting);
+  if (playhead.playing) return;
+  resting = setTimeout(() => {
+    if (document.body.dataset.view === 'result') history.replaceState(null, '', `${location.pathname}${location.search}#frame=${playhead.frame}`);
+  }, REST);
 }

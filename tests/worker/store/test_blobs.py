@@ -47,6 +47,19 @@ def test_a_missing_blob_is_told_at_once(blobs):
             ask(key)
 
 
+@pytest.mark.parametrize("key", ["../outside", "uploads/../../outside", "{}/outside"])
+def test_no_key_leads_out_of_the_folder(blobs, tmp_path, key):
+    """Keys come from Redis: one that somebody put there reads nothing else, and deletes nothing."""
+    outside = tmp_path / "outside"
+    outside.write_text("of the machine")
+    key = key.format(tmp_path)
+    for ask in (blobs.read, blobs.size, blobs.stream, lambda key: blobs.path(key).__enter__()):
+        with pytest.raises(BlobMissing):
+            ask(key)
+    blobs.delete(key)
+    assert outside.exists()
+
+
 def test_a_stream_cut_short_leaves_nothing(blobs, tmp_path):
     """Whatever is raised while a blob is made is raised here, and there is no half blob."""
 

@@ -1,14 +1,14 @@
 // The row of editing tools: it shows the segment at the moment, the selected cut, and whether all is kept.
 
-import { numberOf, onCounting, shownFrame, typedFrame } from '../frame_numbering.js';
+import { frameNumber, onFrameNumbering, frameText, parseFrame } from '../number_format.js';
 import { $, make } from '../dom.js';
-import { colourOf } from '../palette.js';
+import { motionColour } from '../palette.js';
 import { motionsOf } from './segment_edits.js';
 
 const NEW = 'new';
 
 /** Wire the row once. `editor()` is the one at work. Answers a function that shows its state. */
-export function editBar(editor, { loadTheirs }) {
+export function addEditToolbar(editor, { loadTheirs }) {
   const on = (id, event, action) => $(id).addEventListener(event, action);
   const name = $('motion-name');
   name.addEventListener('change', () => { editor().rename(name.value); show(); });
@@ -18,17 +18,17 @@ export function editBar(editor, { loadTheirs }) {
       if (event.key === 'Enter') field.blur();
     });
   }
-  on('motion-of', 'change', (event) => editor().give(event.target.value === NEW ? null : Number(event.target.value)));
-  on('flag-loop', 'click', () => editor().flag('loop'));
-  on('flag-discard', 'click', () => editor().flag('discard'));
+  on('motion-of', 'change', (event) => editor().assignMotion(event.target.value === NEW ? null : Number(event.target.value)));
+  on('flag-loop', 'click', () => editor().toggleFlag('loop'));
+  on('flag-discard', 'click', () => editor().toggleFlag('discard'));
   on('split', 'click', () => editor().split());
   on('cut-before', 'click', () => editor().selectNext(-1));
   on('cut-after', 'click', () => editor().selectNext(1));
   on('nudge-back', 'click', () => editor().nudge(-1));
   on('nudge-on', 'click', () => editor().nudge(1));
   on('cut-frame', 'change', (event) => {
-    const frame = typedFrame(event.target.value);
-    if (frame !== null) editor().place(frame);
+    const frame = parseFrame(event.target.value);
+    if (frame !== null) editor().moveTo(frame);
     show(true);
   });
   on('merge', 'click', (event) => editor().merge(event.shiftKey));
@@ -42,17 +42,17 @@ export function editBar(editor, { loadTheirs }) {
     showCut(at, evenFocused);
     $('undo').disabled = !at.canUndo;
     $('redo').disabled = !at.canRedo;
-    showKept(at, loadTheirs);
+    showSavingState(at, loadTheirs);
   }
-  onCounting(() => show());
+  onFrameNumbering(() => show());
   return show;
 }
 
 function showSegment(editor, evenFocused) {
-  const segment = editor.segments[editor.here];
+  const segment = editor.segments[editor.currentIndex];
   const name = $('motion-name');
   if (evenFocused || name !== document.activeElement) name.value = segment.name;
-  name.style.setProperty('--motion', colourOf(segment.motion));
+  name.style.setProperty('--motion', motionColour(segment.motion));
   const motions = motionsOf(editor.segments);
   const said = motions.map((motion) => motion.name).join('\n');
   const select = $('motion-of');
@@ -72,8 +72,8 @@ function showCut(editor, evenFocused) {
   for (const tool of document.querySelectorAll('.of-cut')) tool.disabled = none;
   $('cut-title').textContent = none ? 'no cut selected' : `${segments[cut].name} | ${segments[cut + 1].name}`;
   const field = $('cut-frame');
-  if (evenFocused || field !== document.activeElement) field.value = none ? '' : numberOf(segments[cut].end);
-  $('timeline').setAttribute('aria-description', none ? '' : `Cut at frame ${shownFrame(segments[cut].end)} selected. Arrows move it.`);
+  if (evenFocused || field !== document.activeElement) field.value = none ? '' : frameNumber(segments[cut].end);
+  $('timeline').setAttribute('aria-description', none ? '' : `Cut at frame ${frameText(segments[cut].end)} selected. Arrows move it.`);
 }
 
 const WORDS = {
@@ -81,11 +81,11 @@ const WORDS = {
   saving: () => 'Saving …',
   saved: (saving) => (saving.shown ? `Saved · revision ${saving.shown}` : 'As computed'),
   failed: (saving) => `Not saved. ${saving.why}`,
-  stale: (saving) => `Not saved: somebody else made revision ${saving.theirs} meanwhile.`,
+  stale: (saving) => `Not saved: somebody else saved revision ${saving.theirs} first.`,
 };
 
 /** An honest word about where the edits are, and ways on where they are stuck. */
-function showKept(editor, loadTheirs) {
+function showSavingState(editor, loadTheirs) {
   const { saving } = editor;
   const words = WORDS[saving.kind](saving);
   $('kept').dataset.kind = saving.kind;
@@ -94,7 +94,7 @@ function showKept(editor, loadTheirs) {
   const way = (text, action) => make('button', { type: 'button', onclick: action }, text);
   const ways = {
     failed: () => [way('Try again', () => saving.flush().catch(() => {}))],
-    stale: () => [way('Load theirs', loadTheirs), way('Keep mine', () => saving.insist().catch(() => {}))],
+    stale: () => [way('Load theirs', loadTheirs), way('Keep mine', () => saving.overwrite().catch(() => {}))],
   };
   $('kept-ways').replaceChildren(...(ways[saving.kind]?.() || []));
 }

@@ -1,7 +1,7 @@
 // Edits on their way to the service: one revision for what was done in one go, and an honest word about where they are.
 
 import * as api from '../service/api.js';
-import { same } from './segment_edits.js';
+import { sameSegments } from './segment_edits.js';
 
 const QUIET = 600; // ms without another edit before they are sent
 const LONGEST_NOTE = 200;
@@ -10,7 +10,7 @@ const LONGEST_NOTE = 200;
  * `kind` is `saved` (nothing is open), `waiting` (edits not sent yet), `saving`, `failed` (`why` says it) or `stale`
  * (somebody else has made revision `theirs` meanwhile); `onState()` hears whenever it changes.
  */
-export class Saving {
+export class RevisionSaving {
   #id; #onState; #kept; #wanted = null; #notes = []; #timer = 0; #sending = null;
 
   /** `segments` are those of revision `shown`; `newest` is the number an edit must be made against. */
@@ -25,13 +25,13 @@ export class Saving {
   get open() { return this.kind !== 'saved'; }
 
   /** Keep these, in a moment; `note` says what was done. What is kept already needs no revision. */
-  want(segments, note) {
+  schedule(segments, note) {
     clearTimeout(this.#timer);
     this.#wanted = segments;
     if (this.#notes.at(-1) !== note) this.#notes.push(note);
     if (this.#sending || this.kind === 'stale') return;
-    if (same(segments, this.#kept)) return this.#become('saved');
-    this.#become('waiting');
+    if (sameSegments(segments, this.#kept)) return this.#setKind('saved');
+    this.#setKind('waiting');
     this.#timer = setTimeout(() => this.flush().catch(() => {}), QUIET);
   }
 
@@ -43,7 +43,7 @@ export class Saving {
   }
 
   /** Somebody else saved meanwhile, and these are to stand all the same: on top of theirs. */
-  insist() {
+  overwrite() {
     this.newest = this.theirs;
     return this.flush();
   }
@@ -51,10 +51,10 @@ export class Saving {
   close() { clearTimeout(this.#timer); }
 
   async #send() {
-    while (this.#wanted && !same(this.#wanted, this.#kept)) {
+    while (this.#wanted && !sameSegments(this.#wanted, this.#kept)) {
       const segments = this.#wanted;
       const notes = [...this.#notes];
-      this.#become('saving');
+      this.#setKind('saving');
       try {
         const answer = await api.revise(this.#id, segments, this.newest, notes.join(', ').slice(0, LONGEST_NOTE));
         this.#kept = segments;
@@ -63,18 +63,18 @@ export class Saving {
       } catch (problem) {
         if (problem.document?.status === 412) {
           this.theirs = problem.document.current ?? (await api.status(this.#id)).revision;
-          this.#become('stale');
+          this.#setKind('stale');
         } else {
           this.why = problem.message;
-          this.#become('failed');
+          this.#setKind('failed');
         }
         throw problem;
       }
     }
-    this.#become('saved');
+    this.#setKind('saved');
   }
 
-  #become(kind) {
+  #setKind(kind) {
     this.kind = kind;
     this.#onState();
   }

@@ -19,7 +19,7 @@ export function moveCut(segments, index, frame) {
   if (!after) return segments;
   const place = Math.max(before.start + 1, Math.min(after.end - 1, Math.round(frame)));
   if (place === before.end) return segments;
-  return replaced(segments, index, 2, { ...before, end: place, confidence: null, repeats: [] }, { ...after, start: place, repeats: [] });
+  return splice(segments, index, 2, { ...before, end: place, confidence: null, repeats: [] }, { ...after, start: place, repeats: [] });
 }
 
 /** Take cut `index` away. What remains is the motion before it, or the one after it. */
@@ -28,15 +28,15 @@ export function mergeCut(segments, index, after = false) {
   if (!right) return segments;
   const kept = after ? right : left;
   const whole = { ...kept, start: left.start, end: right.end, confidence: right.confidence, repeats: [] };
-  return renumbered(replaced(segments, index, 2, whole));
+  return renumbered(splice(segments, index, 2, whole));
 }
 
 /** Cut at `frame`, which begins the second half. Both halves stay the motion they were. */
 export function split(segments, frame) {
-  const index = indexAt(segments, frame);
+  const index = segmentIndexAt(segments, frame);
   const whole = segments[index];
   if (frame <= whole.start || frame >= whole.end) return segments;
-  return replaced(segments, index, 1,
+  return splice(segments, index, 1,
     { ...whole, end: frame, confidence: null, repeats: [] }, { ...whole, start: frame, repeats: [] });
 }
 
@@ -51,22 +51,22 @@ export function renameMotion(segments, motion, name) {
 }
 
 /** Make one segment another motion; null makes it one of its own. */
-export function giveMotion(segments, index, motion) {
+export function assignMotion(segments, index, motion) {
   if (segments[index].motion === motion) return segments;
   const known = segments.find((segment) => segment.motion === motion);
   const name = known ? known.name : freeName(segments);
   const number = known ? motion : 1 + Math.max(...segments.map((segment) => segment.motion));
-  return renumbered(replaced(segments, index, 1, { ...segments[index], motion: number, name }));
+  return renumbered(splice(segments, index, 1, { ...segments[index], motion: number, name }));
 }
 
 /** Set `loop` or `discard` of one segment. */
-export function mark(segments, index, flag, on) {
+export function setFlag(segments, index, flag, on) {
   if (Boolean(segments[index][flag]) === on) return segments;
-  return replaced(segments, index, 1, { ...segments[index], [flag]: on });
+  return splice(segments, index, 1, { ...segments[index], [flag]: on });
 }
 
 /** A result as it reads with other segments: key-frames are of the motion they are in now. */
-export function readWith(document, segments) {
+export function withSegments(document, segments) {
   let place = 0;
   const keys = document.key_frames.map((key) => {
     while (segments[place].end <= key.frame) place += 1;
@@ -76,7 +76,7 @@ export function readWith(document, segments) {
 }
 
 /** The segment that a frame is in, by its place in the list. */
-export function indexAt(segments, frame) {
+export function segmentIndexAt(segments, frame) {
   let low = 0;
   let high = segments.length - 1;
   while (low < high) {
@@ -94,7 +94,7 @@ export function motionsOf(segments) {
 }
 
 /** Whether two lists say the same, of what is kept by the service. */
-export const same = (one, other) => one === other || (one.length === other.length && one.every((segment, i) =>
+export const sameSegments = (one, other) => one === other || (one.length === other.length && one.every((segment, i) =>
   segment.end === other[i].end && segment.name === other[i].name && segment.motion === other[i].motion
   && Boolean(segment.loop) === Boolean(other[i].loop) && Boolean(segment.discard) === Boolean(other[i].discard)));
 
@@ -108,4 +108,9 @@ function freeName(segments) {
   }
 }
 
-const replaced = (segments, index, count, ...others) => [...segments.slice(0, index), ...others, ...segments.slice(index + count)];
+const splice = (segments, index, count, ...others) => [...segments.slice(0, index), ...others, ...segments.slice(index + count)];
+
+const DOUBT = 0.5;
+
+/** Whether the cut that ends a segment is rather wrong than right. The last segment ends with the take, for certain. */
+export const isDoubtful = ({ confidence }) => confidence !== null && confidence < DOUBT;

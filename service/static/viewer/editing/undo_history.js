@@ -1,6 +1,6 @@
 // Undo and redo over values that never change in place.
 
-export class History {
+export class UndoHistory {
   #past = []; #future = []; #key = null;
 
   constructor(present) { this.present = present; }
@@ -20,7 +20,7 @@ export class History {
   }
 
   /** The next push is a step of its own, whatever its key. */
-  settle() { this.#key = null; }
+  endStep() { this.#key = null; }
 
   undo() { return this.#step(this.#past, this.#future); }
 

@@ -13,7 +13,7 @@ async function range(url, start, stop) {
 }
 
 export class BlockFile {
-  #url; #first; #type; #blocks = new Map(); #asked = new Map();
+  #url; #first; #type; #blocks = new Map(); #pending = new Map();
 
   static async open(url, type) {
     const file = new BlockFile();
@@ -48,7 +48,7 @@ export class BlockFile {
   }
 
   /** Ask for the block after the one of `frame`, so that playing never waits for it. */
-  ahead(frame) {
+  prefetch(frame) {
     const next = frame + this.perBlock;
     if (next < this.header.frames && !this.has(next)) this.fetch(next).catch(() => {});
   }
@@ -59,8 +59,8 @@ export class BlockFile {
   fetch(frame) {
     const index = Math.floor(frame / this.perBlock);
     if (this.#blocks.has(index)) return Promise.resolve();
-    if (!this.#asked.has(index)) this.#asked.set(index, this.#load(index).finally(() => this.#asked.delete(index)));
-    return this.#asked.get(index);
+    if (!this.#pending.has(index)) this.#pending.set(index, this.#load(index).finally(() => this.#pending.delete(index)));
+    return this.#pending.get(index);
   }
 
   async #load(index) {

@@ -5,36 +5,36 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
 const FROM = new Vector3(0.62, 0.26, 0.74).normalize(); // a little from the side and above
 
-export class Eye {
-  #orbit; #last = new Vector3(); #step = new Vector3();
+export class FigureCamera {
+  #controls; #last = new Vector3(); #step = new Vector3();
 
   /** `onChange()` hears when a person has turned, moved or zoomed. */
   constructor(canvas, onChange) {
     this.camera = new PerspectiveCamera(32, 1, 0.01, 1000);
     this.following = true;
-    this.#orbit = new OrbitControls(this.camera, canvas);
-    this.#orbit.enableDamping = false;
-    this.#orbit.addEventListener('change', onChange);
+    this.#controls = new OrbitControls(this.camera, canvas);
+    this.#controls.enableDamping = false;
+    this.#controls.addEventListener('change', onChange);
   }
 
-  get target() { return this.#orbit.target; }
+  get target() { return this.#controls.target; }
 
   /** Stand back until a sphere about `centre` is seen in a picture of `width` by `height`; the body's middle is at `middle`. */
-  standBack(centre, radius, { width, height }, middle) {
+  frameSphere(centre, radius, { width, height }, middle) {
     const distance = (radius * 1.05) / Math.sin((this.camera.fov * Math.PI) / 360) / Math.min(1, width / height);
     this.camera.position.copy(centre).addScaledVector(FROM, distance);
     this.camera.near = distance / 200;
     this.camera.far = distance * 60;
     this.camera.updateProjectionMatrix();
     this.target.copy(centre);
-    this.#orbit.minDistance = radius * 0.3;
-    this.#orbit.maxDistance = distance * 12;
+    this.#controls.minDistance = radius * 0.3;
+    this.#controls.maxDistance = distance * 12;
     this.#last.copy(middle);
-    this.#orbit.update();
+    this.#controls.update();
   }
 
   /** Look through one of so many pictures side by side, `share`, on a stage of `width` by `height`. */
-  look({ width, height }, share) {
+  setView({ width, height }, share) {
     this.camera.aspect = width / share / height;
     // Half a stage is narrower, so what is on it is drawn smaller: as much of the figure is seen as on the whole.
     this.camera.zoom = Math.min(1, this.camera.aspect) / Math.min(1, width / height);

@@ -6,10 +6,10 @@ import { BlockFile } from './block_file.js';
  * Ask for what a viewer document names, until `signal` ends it. `model`: the bytes of a glTF, or the parts of a vertex
  * sequence; `strain`: its block file, null where there is none. `onProgress` hears the share of a glTF that is here.
  */
-export function askFigure(viewer, signal, onProgress = () => {}) {
-  const model = viewer.kind === 'gltf' ? download(viewer.model, signal, onProgress) : sequence(viewer.model);
+export function downloadFigure(viewer, signal, onProgress = () => {}) {
+  const model = viewer.kind === 'gltf' ? download(viewer.model, signal, onProgress) : vertexSequence(viewer.model);
   model.catch(() => {}); // said by who waits for it
-  return { model, strain: viewer.strain ? strain(viewer.strain) : null };
+  return { model, strain: viewer.strain ? strainFile(viewer.strain) : null };
 }
 
 async function download(url, signal, onProgress) {
@@ -30,13 +30,13 @@ async function download(url, signal, onProgress) {
   return bytes.buffer;
 }
 
-async function sequence(url) {
+async function vertexSequence(url) {
   const file = await BlockFile.open(url, 'int16');
   const [triangles, patches] = await Promise.all([file.array('triangles'), file.array('patches'), file.fetch(0)]);
   return { file, triangles, patches };
 }
 
-async function strain(url) {
+async function strainFile(url) {
   try {
     const file = await BlockFile.open(url, 'uint8');
     file.fetch(0).catch(() => {}); // asked for again when it is shown

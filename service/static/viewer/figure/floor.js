@@ -79,7 +79,7 @@ export class Floor {
     this.uniforms.middle.value.set(middle.x, middle.z);
   }
 
-  colours(line, shade) {
+  setColours(line, shade) {
     this.uniforms.line.value.set(line);
     this.uniforms.shade.value.set(shade);
   }

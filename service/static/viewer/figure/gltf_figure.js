@@ -2,15 +2,15 @@
 
 import { AnimationMixer, Box3, BufferAttribute, DoubleSide, LoopRepeat, MeshLambertMaterial, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { bones } from './skeleton.js';
-import { inOrder } from './triangle_order.js';
+import { createSkeleton } from './skeleton.js';
+import { orderTriangles } from './triangle_order.js';
 
 /** The figure of a glTF's bytes. */
-export const gltfFigure = async (viewer, bytes, strain) =>
+export const createGltfFigure = async (viewer, bytes, strain) =>
   new GltfFigure(await new GLTFLoader().parseAsync(bytes, ''), viewer, strain);
 
 class GltfFigure {
-  #mixer; #action; #clip; #viewer; #points = []; #bones = null; #at = new Vector3();
+  #mixer; #action; #clip; #viewer; #points = []; #skeleton = null; #at = new Vector3();
 
   constructor(gltf, viewer, strain) {
     this.object = gltf.scene;
@@ -21,12 +21,12 @@ class GltfFigure {
       if (node.isMesh) meshes.push(node);
       if (node.isBone) this.#points.push(node);
     });
-    for (const mesh of meshes) dress(mesh, strain);
+    for (const mesh of meshes) setMaterial(mesh, strain);
     if (viewer.skeleton) {
-      this.#bones = bones(this.object);
-      this.object.add(this.#bones.object);
-      this.#points = this.#bones.joints;
-      strain.dress(this.#bones.material);
+      this.#skeleton = createSkeleton(this.object);
+      this.object.add(this.#skeleton.object);
+      this.#points = this.#skeleton.joints;
+      strain.shade(this.#skeleton.material);
     }
     if (!this.#points.length) this.object.traverse((node) => { if (node.isMesh) this.#points.push(node); });
     this.#clip = gltf.animations[0];
@@ -50,7 +50,7 @@ class GltfFigure {
       this.#mixer.update(0);
     }
     this.object.updateMatrixWorld(true);
-    this.#bones?.update();
+    this.#skeleton?.update();
   }
 
   /** The middle of the body: of its joints, or of its parts. */
@@ -62,7 +62,7 @@ class GltfFigure {
 
   box() {
     const box = new Box3();
-    if (this.#bones) for (const joint of this.#points) box.expandByPoint(this.#at.setFromMatrixPosition(joint.matrixWorld));
+    if (this.#skeleton) for (const joint of this.#points) box.expandByPoint(this.#at.setFromMatrixPosition(joint.matrixWorld));
     else box.setFromObject(this.object, true);
     return box;
   }
@@ -73,19 +73,19 @@ class GltfFigure {
   }
 }
 
-function dress(mesh, strain) {
+function setMaterial(mesh, strain) {
   mesh.frustumCulled = false; // its box is that of the bind pose, and it walks out of it
   const { geometry } = mesh;
   if (!geometry.getAttribute('_patch')) {
     geometry.setAttribute('_patch', new BufferAttribute(new Float32Array(geometry.getAttribute('position').count), 1));
   }
-  if (geometry.index) geometry.setIndex(new BufferAttribute(inOrder(geometry.index.array), 1));
-  mesh.material = strain.dress(new MeshLambertMaterial({ side: DoubleSide, flatShading: !geometry.getAttribute('normal') }));
-  if (mirrored(mesh)) mesh.material.defines = { MIRRORED: '' };
+  if (geometry.index) geometry.setIndex(new BufferAttribute(orderTriangles(geometry.index.array), 1));
+  mesh.material = strain.shade(new MeshLambertMaterial({ side: DoubleSide, flatShading: !geometry.getAttribute('normal') }));
+  if (isMirrored(mesh)) mesh.material.defines = { MIRRORED: '' };
 }
 
 /** Whether joints mirror a skinned mesh: then its triangles turn the other way, which only the mesh itself says to three.js. */
-function mirrored({ skeleton, matrixWorld }) {
+function isMirrored({ skeleton, matrixWorld }) {
   if (!skeleton) return false;
   const turned = skeleton.bones[0].matrixWorld.determinant() * skeleton.boneInverses[0].determinant();
   return turned * matrixWorld.determinant() < 0;

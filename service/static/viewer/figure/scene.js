@@ -1,42 +1,41 @@
-// The 3D view: eye, light, floor and one figure, at one moment or at two side by side. Draws only when something changed.
+// The 3D view: camera, light, floor and one figure, at one moment or at two side by side. Draws only when something changed.
 
-import { Scene, Vector3, WebGLRenderer } from 'three';
-import { onResize, onTheme, styled } from '../dom.js';
-import { Eye } from './camera.js';
-import { gltfFigure } from './gltf_figure.js';
-import { verticesFigure } from './vertex_figure.js';
+import { DirectionalLight, Group, HemisphereLight, Scene, Vector3, WebGLRenderer } from 'three';
+import { FigureCamera } from './camera.js';
+import { onResize, onThemeChange, styleValue } from '../dom.js';
 import { Floor } from './floor.js';
-import { Light } from './light.js';
-import { Strain } from './strain_shading.js';
+import { createGltfFigure } from './gltf_figure.js';
+import { StrainShading } from './strain_shading.js';
+import { createVertexFigure } from './vertex_figure.js';
 
 const FINEST = 2; // pixels to a CSS pixel; more is not seen
 
-export class Stage {
-  #renderer; #scene = new Scene(); #eye; #floor = new Floor(); #light = new Light(); #asked = false;
+export class FigureScene {
+  #renderer; #scene = new Scene(); #camera; #floor = new Floor(); #light = new Light(); #requested = false;
   #middle = new Vector3(); #moments = []; #size = { width: 1, height: 1 };
 
   constructor(canvas) {
     this.canvas = canvas;
     this.figure = null;
-    this.strain = new Strain();
+    this.strain = new StrainShading();
     this.#renderer = rendererOn(canvas);
-    this.#eye = new Eye(canvas, () => this.draw());
-    this.#scene.add(this.#light.object, this.#eye.camera, this.#floor.object);
+    this.#camera = new FigureCamera(canvas, () => this.draw());
+    this.#scene.add(this.#light.object, this.#camera.camera, this.#floor.object);
     onResize(canvas.parentElement, () => this.#fit());
-    onTheme(() => this.#theme());
+    onThemeChange(() => this.#theme());
     this.#theme();
     this.#fit();
-    this.#renderer.compile(this.#scene, this.#eye.camera); // while the figure is on its way
+    this.#renderer.compile(this.#scene, this.#camera.camera); // while the figure is on its way
   }
 
   /** Whether the camera goes along with the body. */
-  set following(on) { this.#eye.following = on; }
+  set following(on) { this.#camera.following = on; }
 
-  /** Show what the service's viewer document names, `coming` as `askFigure` answers it, in place of what was there. */
-  async show(viewer, coming, signal) {
-    const [model, colours] = await Promise.all([coming.model, coming.strain]);
-    const strain = new Strain(colours);
-    const figure = await (viewer.kind === 'gltf' ? gltfFigure : verticesFigure)(viewer, model, strain);
+  /** Show what the service's viewer document names, `files` as `downloadFigure` answers it, in place of what was there. */
+  async show(viewer, files, signal) {
+    const [model, colours] = await Promise.all([files.model, files.strain]);
+    const strain = new StrainShading(colours);
+    const figure = await (viewer.kind === 'gltf' ? createGltfFigure : createVertexFigure)(viewer, model, strain);
     if (signal.aborted) return figure.dispose();
     this.clear();
     this.strain = strain;
@@ -56,15 +55,15 @@ export class Stage {
   }
 
   /**
-   * Show moments, one or two side by side: `{ position, look }` each, in frames and as in `Strain.look`. They are posed
+   * Show moments, one or two side by side: `{ position, colouring }` each, in frames and as in `StrainShading.colourBy`. They are posed
    * when they are drawn, so that of many in one screen frame only the last costs anything. Answers null, or a promise
    * of what had to be fetched first.
    */
   pose(moments) {
     this.#moments = moments;
     this.draw();
-    const missing = moments.map(({ position, look }) => [Math.floor(position), look === 'strain'])
-      .filter(([frame, heated]) => !this.figure.ready(frame) || (heated && !this.strain.ready(frame)));
+    const missing = moments.map(({ position, colouring }) => [Math.floor(position), colouring === 'strain'])
+      .filter(([frame, strained]) => !this.figure.ready(frame) || (strained && !this.strain.ready(frame)));
     if (!missing.length) return null;
     return Promise.all(missing.flatMap(([frame]) => [this.figure.fetch(frame), this.strain.fetch(frame)]));
   }
@@ -77,12 +76,12 @@ export class Stage {
     const radius = size.length() / 2 || 1;
     this.#floor.fit(Math.max(size.y, radius * 0.8), Math.max(size.x, size.z), box.min.y - radius * 0.002);
     this.figure.centre(this.#middle);
-    this.#eye.standBack(box.getCenter(new Vector3()), radius, this.#size, this.#middle);
+    this.#camera.frameSphere(box.getCenter(new Vector3()), radius, this.#size, this.#middle);
     this.draw();
   }
 
   /** Stand a figure whose up is z on its feet, or lay it back. */
-  turn(upIsZ) {
+  setUpAxis(upIsZ) {
     if (!this.figure) return;
     this.figure.object.rotation.x = upIsZ ? -Math.PI / 2 : 0;
     this.figure.object.updateMatrixWorld(true);
@@ -90,34 +89,34 @@ export class Stage {
   }
 
   draw() {
-    if (this.#asked) return;
-    this.#asked = true;
-    requestAnimationFrame(() => { this.#asked = false; this.#render(); });
+    if (this.#requested) return;
+    this.#requested = true;
+    requestAnimationFrame(() => { this.#requested = false; this.#render(); });
   }
 
   #render() {
     const { width, height } = this.#size;
     const share = Math.max(1, this.#moments.length);
-    this.#eye.look(this.#size, share);
+    this.#camera.setView(this.#size, share);
     this.#renderer.setScissorTest(share > 1);
     for (let place = 0; place < share; place++) {
       this.#renderer.setViewport((place * width) / share, 0, width / share, height);
-      this.#act(this.#moments[place], place === 0);
+      this.#poseFigure(this.#moments[place], place === 0);
       this.#renderer.setScissor((place * width) / share, 0, width / share, height);
-      this.#renderer.render(this.#scene, this.#eye.camera);
+      this.#renderer.render(this.#scene, this.#camera.camera);
     }
   }
 
   /** Pose and colour the figure; light and floor go with it, and with the first moment the camera. */
-  #act(moment, first) {
+  #poseFigure(moment, first) {
     if (this.figure && moment) {
       this.figure.pose(moment.position);
-      this.strain.look(moment.look);
-      this.strain.show(Math.floor(moment.position));
+      this.strain.colourBy(moment.colouring);
+      this.strain.showFrame(Math.floor(moment.position));
       this.figure.centre(this.#middle);
-      if (first) this.#eye.follow(this.#middle);
+      if (first) this.#camera.follow(this.#middle);
     }
-    const { camera, target } = this.#eye;
+    const { camera, target } = this.#camera;
     this.#floor.follow(target, this.#middle);
     this.#light.follow(camera, target);
   }
@@ -131,7 +130,7 @@ export class Stage {
   }
 
   #theme() {
-    this.#floor.colours(styled('--grid'), styled('--shade'));
+    this.#floor.setColours(styleValue('--grid'), styleValue('--shade'));
     this.draw();
   }
 }
@@ -144,4 +143,20 @@ function rendererOn(canvas) {
   const renderer = new WebGLRenderer({ canvas, context });
   renderer.setPixelRatio(ratio);
   return renderer;
+}
+
+class Light {
+  #key = new DirectionalLight(0xfff4e6, 1.7); #rim = new DirectionalLight(0xcfe0ff, 0.9);
+  #sky = new HemisphereLight(0xffffff, 0xb5aa9a, 1.9);
+
+  constructor() {
+    this.object = new Group().add(this.#sky, this.#key, this.#rim, this.#key.target, this.#rim.target);
+  }
+
+  /** Stand about `target` as the camera sees it. */
+  follow(camera, target) {
+    this.#key.position.set(-0.5, 0.9, 0.6).applyQuaternion(camera.quaternion).add(target);
+    this.#rim.position.set(0.9, 0.5, -0.8).applyQuaternion(camera.quaternion).add(target);
+    for (const light of [this.#key, this.#rim]) light.target.position.copy(target);
+  }
 }

@@ -4,17 +4,17 @@
 import { BufferAttribute, CylinderGeometry, Group, InstancedMesh, Matrix4, MeshLambertMaterial, Quaternion, SphereGeometry, Vector3 } from 'three';
 
 const UP = new Vector3(0, 1, 0);
-const THICK = 0.16; // of the middle bone's length, the radius of all
+const THICK = 0.16; // of the median bone's length, the radius of all
 const THICKEST = 0.3; // of its own length, the radius of a short one
 
 /** The bones under `root`: `update()` follows the joints' world matrices. */
-export function bones(root) {
+export function createSkeleton(root) {
   const joints = [];
   root.traverse((node) => { if (node.userData.joint) joints.push(node); });
   const pairs = joints.filter((joint) => joint.parent.userData.joint).map((joint) => [joint.parent, joint]);
   const material = new MeshLambertMaterial();
-  const rods = instances(new CylinderGeometry(1, 1, 1, 12, 1, true).translate(0, 0.5, 0), material, pairs.length);
-  const balls = instances(new SphereGeometry(1, 12, 8), material, 2 * pairs.length);
+  const rods = createInstances(new CylinderGeometry(1, 1, 1, 12, 1, true).translate(0, 0.5, 0), material, pairs.length);
+  const balls = createInstances(new SphereGeometry(1, 12, 8), material, 2 * pairs.length);
   const [from, to, along, scale] = Array.from({ length: 4 }, () => new Vector3());
   const turn = new Quaternion();
   const matrix = new Matrix4();
@@ -28,7 +28,7 @@ export function bones(root) {
   };
   const update = () => {
     inverse.copy(root.matrixWorld).invert();
-    radius ??= THICK * middle(pairs.map(ends));
+    radius ??= THICK * median(pairs.map(ends));
     pairs.forEach((pair, index) => {
       const length = ends(pair);
       const thick = Math.min(radius, THICKEST * length);
@@ -43,7 +43,7 @@ export function bones(root) {
   return { object: new Group().add(rods, balls), joints, material, update };
 }
 
-function instances(geometry, material, count) {
+function createInstances(geometry, material, count) {
   geometry.setAttribute('_patch', new BufferAttribute(new Float32Array(geometry.getAttribute('position').count), 1));
   const mesh = new InstancedMesh(geometry, material, Math.max(1, count));
   mesh.frustumCulled = false;
@@ -52,4 +52,4 @@ function instances(geometry, material, count) {
 }
 
 /** The median of lengths; 1 where there are none. */
-const middle = (lengths) => lengths.filter(Boolean).sort((a, b) => a - b)[Math.floor(lengths.length / 2)] ?? 1;
+const median = (lengths) => lengths.filter(Boolean).sort((a, b) => a - b)[Math.floor(lengths.length / 2)] ?? 1;

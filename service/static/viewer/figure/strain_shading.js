@@ -1,8 +1,11 @@
 // Strain as colour: one byte a patch and frame, looked up on the GPU, so that a frame costs a few hundred bytes.
 
 import { Color, DataTexture, NearestFilter, RedFormat, UnsignedByteType } from 'three';
-import { BEND, HEAT } from './heat.js';
 
+// At rest the body's own clay, then through amber and vermilion to a dark violet: lightness falls all the way, so that the
+// order is read without telling hues apart.
+const HEAT = ['#d5d2ca', '#f0c15a', '#e8712e', '#ae1f57', '#43106b'];
+const BEND = 0.7; // colour moves with strain to this power: most of a body is strained a little, and a little should be seen
 const CLAY = new Color(HEAT[0]);
 
 const VERTEX = `
@@ -26,7 +29,7 @@ vec3 heatOf(float s) {
 }
 `;
 
-export class Strain {
+export class StrainShading {
   #file; #shown = -1;
 
   /** Of a block file, or of none. */
@@ -44,6 +47,9 @@ export class Strain {
 
   get present() { return this.#file !== null; }
 
+  /** The colours from rest to the most strain, for the legend. */
+  get gradient() { return `linear-gradient(to right, ${HEAT.join(', ')})`; }
+
   #texture(patches) {
     const map = new DataTexture(new Uint8Array(patches), patches, 1, RedFormat, UnsignedByteType);
     map.magFilter = map.minFilter = NearestFilter;
@@ -53,7 +59,7 @@ export class Strain {
   }
 
   /** Make a material show strain or a tint; with MIRRORED among its `defines`, the light falls on the other side. */
-  dress(material) {
+  shade(material) {
     material.onBeforeCompile = (shader) => {
       Object.assign(shader.uniforms, this.uniforms);
       shader.vertexShader = VERTEX + shader.vertexShader.replace('#include <begin_vertex>',
@@ -69,7 +75,7 @@ export class Strain {
   ready(frame) { return !this.#file || this.#file.has(frame); }
 
   /** Show a frame; while its block is on the way the last one stays. */
-  show(frame) {
+  showFrame(frame) {
     if (!this.#file || !this.uniforms.heated.value || frame === this.#shown) return;
     const values = this.#file.peek(frame);
     if (!values) return;
@@ -77,13 +83,13 @@ export class Strain {
     const map = this.uniforms.strainMap.value;
     map.image.data.set(values);
     map.needsUpdate = true;
-    this.#file.ahead(frame);
+    this.#file.prefetch(frame);
   }
 
   fetch(frame) { return this.#file ? this.#file.fetch(frame) : Promise.resolve(); }
 
   /** `strain`, or a colour for the whole body, or null for clay. */
-  look(choice) {
+  colourBy(choice) {
     const heated = choice === 'strain' && this.present;
     this.uniforms.heated.value = heated ? 1 : 0;
     if (!heated) this.uniforms.tint.value.copy(choice && choice !== 'strain' ? new Color(choice).lerp(CLAY, 0.15) : CLAY);

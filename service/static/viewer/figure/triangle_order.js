@@ -2,7 +2,7 @@
 // again whatever comes back later. (The smooth sample figure: a third of the work.)
 
 /** The triangles of an index array, those of low vertices first; nothing but their order changes. */
-export function inOrder(index) {
+export function orderTriangles(index) {
   const count = index.length / 3;
   const lowest = (t) => Math.min(index[3 * t], index[3 * t + 1], index[3 * t + 2]);
   let vertices = 0;

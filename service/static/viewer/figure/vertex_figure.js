@@ -1,15 +1,15 @@
 // A vertex sequence plays from blocks of int16 positions; the surface is lit by normals made here, frame by frame.
 
 import { Box3, BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshLambertMaterial, Vector3 } from 'three';
-import { inOrder } from './triangle_order.js';
+import { orderTriangles } from './triangle_order.js';
 
 const LARGEST = 32767;
 
 /** The figure of a sequence's parts. */
-export const verticesFigure = (viewer, { file, triangles, patches }, strain) =>
-  new VerticesFigure(file, inOrder(triangles), patches, strain);
+export const createVertexFigure = (viewer, { file, triangles, patches }, strain) =>
+  new VertexFigure(file, orderTriangles(triangles), patches, strain);
 
-class VerticesFigure {
+class VertexFigure {
   #file; #triangles; #positions; #normals; #frame = -1; #sums;
 
   constructor(file, triangles, patches, strain) {
@@ -24,7 +24,7 @@ class VerticesFigure {
     geometry.setAttribute('normal', this.#normals);
     geometry.setAttribute('_patch', new BufferAttribute(Float32Array.from(patches), 1));
     geometry.setIndex(new BufferAttribute(triangles, 1));
-    const mesh = new Mesh(geometry, strain.dress(new MeshLambertMaterial({ side: DoubleSide })));
+    const mesh = new Mesh(geometry, strain.shade(new MeshLambertMaterial({ side: DoubleSide })));
     mesh.frustumCulled = false;
     mesh.scale.setScalar(half);
     mesh.position.fromArray(centre);
@@ -48,14 +48,14 @@ class VerticesFigure {
       this.#frame = frame;
       this.#positions.array.set(values);
       this.#positions.needsUpdate = true;
-      this.#light(values);
-      this.#file.ahead(frame);
+      this.#updateNormals(values);
+      this.#file.prefetch(frame);
     }
     this.object.updateMatrixWorld(true);
   }
 
   /** Normals: the sum of the triangles' around each vertex, weighted by area. */
-  #light(p) {
+  #updateNormals(p) {
     const sums = this.#sums.fill(0);
     const t = this.#triangles;
     for (let i = 0; i < t.length; i += 3) {

@@ -1,27 +1,26 @@
 // The cuts, least certain first, for a person to look through.
 
-import { doubtful } from '../editing/certainty.js';
-import { Checked } from './checked.js';
-import { onCounting } from '../frame_numbering.js';
-import { cutRow, cutText } from './cut_row.js';
-import { $, inView, make } from '../dom.js';
-import { count } from '../number_format.js';
-import { roving, stop } from '../roving_focus.js';
+import { isDoubtful } from '../editing/segment_edits.js';
+import { $, scrollToRow, make, screenReaderText } from '../dom.js';
+import { count, onFrameNumbering, frameText } from '../number_format.js';
+import { store, stored } from '../local_storage.js';
+import { motionSwatch } from '../palette.js';
+import { addRovingFocus, setTabStop } from '../roving_focus.js';
 
 const AROUND = 0.5; // seconds played on either side
 const WIDE = 30; // seconds to look at a cut in, where more than twice that is shown
 
-export class Review {
-  #list = $('cuts'); #editor; #clock; #span; #checked; #rows = new Map(); #drawn = null;
+export class CutReview {
+  #list = $('cuts'); #editor; #playhead; #range; #checked; #rows = new Map(); #drawn = null;
 
-  /** `editor` selects cuts, `clock` plays around them, `span` shows them; results are told apart by `id`. */
-  constructor(id, editor, clock, span, signal) {
+  /** `editor` selects cuts, `playhead` plays around them, `range` shows them; results are told apart by `id`. */
+  constructor(id, editor, playhead, range, signal) {
     this.#editor = editor;
-    this.#clock = clock;
-    this.#span = span;
-    this.#checked = new Checked(id);
+    this.#playhead = playhead;
+    this.#range = range;
+    this.#checked = new CheckedCuts(id);
     this.#list.replaceChildren();
-    onCounting(() => { this.#drawn = null; this.show(); }, signal);
+    onFrameNumbering(() => { this.#drawn = null; this.show(); }, signal);
   }
 
   /** List the cuts as they are now, and mark the selected one. */
@@ -44,7 +43,7 @@ export class Review {
     const next = open[(at + 1) % Math.max(1, open.length)];
     if (!next) return false;
     this.#choose(next.cut);
-    inView(this.#list, this.#rowOf(next.cut));
+    scrollToRow(this.#list, this.#rowOf(next.cut));
     return true;
   }
 
@@ -60,8 +59,8 @@ export class Review {
   play() {
     if (!this.#selected) return;
     const { end } = this.#selected;
-    const some = AROUND * this.#clock.rate;
-    this.#clock.once(end - some, end + some, end);
+    const some = AROUND * this.#playhead.rate;
+    this.#playhead.playOnce(end - some, end + some, end);
   }
 
   /** The segment that the selected cut ends, if one is selected. */
@@ -71,8 +70,8 @@ export class Review {
   #choose(cut) {
     this.#editor.select(cut);
     const { end } = this.#editor.segments[cut];
-    const wide = WIDE * this.#clock.rate;
-    if (this.#span.length > 2 * wide) this.#span.set(end - wide / 2, end + wide / 2);
+    const wide = WIDE * this.#playhead.rate;
+    if (this.#range.length > 2 * wide) this.#range.set(end - wide / 2, end + wide / 2);
   }
 
   /** Whether nobody has checked or placed the cut that ends a segment. */
@@ -98,18 +97,18 @@ export class Review {
     });
     while (this.#list.children.length > order.length) this.#list.lastChild.remove();
     this.#rows = kept;
-    if (!this.#list.querySelector('[tabindex="0"]')) stop(this.#list, 'button');
+    if (!this.#list.querySelector('[tabindex="0"]')) setTabStop(this.#list, 'button');
     this.#say(order.map(({ segment }) => segment));
   }
 
   #say(segments) {
     const open = segments.filter((segment) => this.#isOpen(segment));
-    const doubts = open.filter(doubtful).length;
+    const doubts = open.filter(isDoubtful).length;
     $('doubts').textContent = doubts;
     $('doubts').hidden = !doubts;
     $('doubtful').disabled = !open.length;
     $('review-hint').textContent = !segments.length ? 'There are no cuts: the take is one segment.'
-      : open.length ? `${doubts ? count(doubts, 'cut is', 'cuts are') : 'No cut is'} in doubt. Least certain first.` : 'Every cut has been checked.';
+      : open.length ? `The method doubts ${doubts ? count(doubts, 'cut') : 'no cut'}. The least certain come first.` : 'You have checked every cut.';
   }
 
   #text(cut) {
@@ -127,9 +126,51 @@ export class Review {
 }
 
 /** Wire the tools of the list once. */
-export function reviewTools(review) {
-  roving($('cuts'), 'button');
+export function addReviewTools(review) {
+  addRovingFocus($('cuts'), 'button');
   $('doubtful').addEventListener('click', () => review()?.next());
   $('around').addEventListener('click', () => review()?.play());
   $('checked').addEventListener('click', () => review()?.check());
+}
+
+/** What the row of the cut between two segments says, and a key that is another whenever the row must be. */
+export function cutText(before, after, checked) {
+  const known = checked ? 'checked' : before.confidence === null ? 'set by hand' : null;
+  const state = known || `${Math.round(100 * before.confidence)} %`;
+  const frame = frameText(before.end);
+  return { frame, state, known, key: [frame, state, before.motion, before.name, after.motion, after.name].join('\n') };
+}
+
+/** The row, a button that calls `choose`. */
+export function cutRow(before, after, { frame, state, known }, choose) {
+  const names = `${before.name} | ${after.name}`;
+  const row = make('button', { type: 'button', className: 'cut', tabIndex: -1, onclick: choose },
+    motionSwatch(before.motion), motionSwatch(after.motion),
+    make('span', { className: 'name', title: names }, names),
+    screenReaderText(' at frame '),
+    make('span', { className: 'from' }, frame),
+    screenReaderText(known ? ' ' : ' certain to '),
+    make('span', { className: 'sure' }, state));
+  row.classList.toggle('open', !known && isDoubtful(before));
+  return row;
+}
+
+export class CheckedCuts {
+  #key; #frames;
+
+  /** Those of the result `id`. */
+  constructor(id) {
+    this.#key = `caesura.checked.${id}`;
+    this.#frames = new Set(stored(this.#key, []));
+  }
+
+  has(frame) { return this.#frames.has(frame); }
+
+  /** Mark a cut, or take its mark away. Answers whether it is marked now. */
+  toggle(frame) {
+    const marked = !this.has(frame);
+    if (marked) this.#frames.add(frame); else this.#frames.delete(frame);
+    store(this.#key, [...this.#frames]);
+    return marked;
+  }
 }

@@ -3,34 +3,16 @@
 import * as api from '../service/api.js';
 import { $, make } from '../dom.js';
 
-// The form's address below the segmentation, what it is called, what it is for, and whether a worker writes it first.
-const FORMS = [
-  ['keyframes', 'Key-frames', 'a GLB of the key poses', true],
-  ['result.csv', 'CSV', 'a line a segment', false],
-  ['result.json', 'JSON', 'everything found', false],
-  ['result.npz', 'NPZ', 'arrays for NumPy', false],
-  ['result.vtt', 'VTT', 'subtitles for video', false],
-  ['result.eaf', 'EAF', 'annotations for ELAN', false],
-  ['plot.svg', 'Plot, SVG', 'a figure for a paper', true],
-  ['plot.png', 'Plot, PNG', 'the same as pixels', true],
-];
-
 /**
  * Wire the links once. `shown()` answers `{ id, name, revision, dirty, keep }`: what is on screen, whether edits are
- * open, and how to keep them.
+ * open, and how to keep them; null while there is no result.
  */
-export function downloads(shown) {
+export function addExportMenu(shown) {
   const menu = $('downloads').querySelector('details');
   const list = menu.querySelector('ul');
-  const links = FORMS.map(([path, title, what, waits]) => {
-    const link = make('a', { onclick: (event) => save(event, link, path, waits) }, make('strong', {}, title), make('span', {}, what));
-    link.dataset.form = path.replace('result.', '');
-    list.append(make('li', {}, link));
-    return [link, path];
-  });
   const clips = $('clips');
   clips.onclick = (event) => save(event, clips, 'clips', true);
-  links.push([clips, 'clips']);
+  const links = [[clips, 'clips']];
   const note = (sentence) => { $('downloads-note').textContent = sentence; };
   let of = ''; // the result that was noted of
   list.addEventListener('click', () => { menu.open = false; });
@@ -42,18 +24,18 @@ export function downloads(shown) {
   });
   addEventListener('pointerdown', (event) => { if (!menu.contains(event.target)) menu.open = false; });
 
-  async function save(event, link, path, waits) {
+  async function save(event, link, path, queued) {
     const { keep, dirty } = shown();
-    if (!dirty && !waits) return; // the browser follows the link itself
+    if (!dirty && !queued) return; // the browser follows the link itself
     event.preventDefault();
     note(dirty ? 'Saving your edits first …' : 'Writing the file …');
     try {
       await keep();
       const { id, revision } = shown();
-      const address = api.form(id, path, revision);
-      if (waits) {
+      const address = api.exportAddress(id, path, revision);
+      if (queued) {
         note('Writing the file …');
-        while (!(await api.written(address)));
+        while (!(await api.isWritten(address)));
       }
       note('');
       const carrier = make('a', { href: address, download: link.download });
@@ -61,16 +43,33 @@ export function downloads(shown) {
     } catch (problem) { note(problem.message); }
   }
 
+  /** Fill the menu from what the service offers. */
+  async function offerExports() {
+    const answer = await api.exports().catch(() => null);
+    for (const { path, title, description, queued } of answer?.exports ?? []) {
+      if (path === 'clips') continue; // the button beside the menu
+      const link = make('a', { onclick: (event) => save(event, link, path, queued) }, make('strong', {}, title), make('span', {}, description));
+      link.dataset.form = path.replace('result.', '');
+      list.append(make('li', {}, link));
+      links.push([link, path]);
+    }
+    showLinks();
+  }
+
   /** Point the links at what is on screen now. */
-  return () => {
+  function showLinks() {
+    if (!shown()) return;
     const { id, revision, name } = shown();
     if (id !== of) note('');
     of = id;
     for (const [link, path] of links) {
-      link.href = api.form(id, path, revision);
+      link.href = api.exportAddress(id, path, revision);
       if (path.startsWith('result.')) link.download = `${stem(name)}${path.slice('result'.length)}`;
     }
-  };
+  }
+
+  offerExports();
+  return showLinks;
 }
 
 const stem = (name) => (name || 'result').replace(/\.[^.]+$/, '');

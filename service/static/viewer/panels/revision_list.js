@@ -3,7 +3,8 @@
 import * as api from '../service/api.js';
 import { $, make } from '../dom.js';
 import { ago } from '../number_format.js';
-import { roving, stop } from '../roving_focus.js';
+import { addRovingFocus, setTabStop } from '../roving_focus.js';
+import { showFormNote } from './segmentation_form.js';
 
 let asked = 0;
 
@@ -22,8 +23,22 @@ export async function showRevisions(id, shown, open) {
     return make('li', {}, row);
   });
   $('revisions').replaceChildren(...rows);
-  stop($('revisions'), 'button');
+  setTabStop($('revisions'), 'button');
 }
 
 /** Wire the list once. */
-export const revisionList = () => roving($('revisions'), 'button');
+export const addRevisionList = () => addRovingFocus($('revisions'), 'button');
+
+/** Show another revision of a result, after what is open is kept (or, where it cannot be, dropped on purpose). */
+export async function openRevision(result, number, dropping = false) {
+  const { saving } = result.editor;
+  const { id } = result.document;
+  try {
+    if (!dropping) await saving.flush();
+    const newest = dropping ? number : saving.newest;
+    const document = await api.result(id, number);
+    if (result.closed) return;
+    history.replaceState(null, '', `/view/${id}${number === newest ? '' : `?revision=${number}`}${location.hash}`);
+    result.show(document, { ...result.status, revision: newest });
+  } catch (problem) { showFormNote(problem.message); }
+}

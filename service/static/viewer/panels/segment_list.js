@@ -1,11 +1,10 @@
-// The list of segments: what, from where, how long. Every row is a button that goes there; one Tab stop for all.
+// The list of segments: what, from where, how long. Every row is a button that goes there; one Tab setTabStop for all.
 
-import { doubtful } from '../editing/certainty.js';
-import { countsFrom, shownFrame, shownInterval } from '../frame_numbering.js';
-import { $, inView, make, unseen } from '../dom.js';
-import { duration } from '../number_format.js';
-import { swatch } from '../palette.js';
-import { roving, stop } from '../roving_focus.js';
+import { isDoubtful } from '../editing/segment_edits.js';
+import { firstFrameNumber, duration, frameText, intervalText } from '../number_format.js';
+import { $, scrollToRow, make, screenReaderText } from '../dom.js';
+import { motionSwatch } from '../palette.js';
+import { addRovingFocus, setTabStop } from '../roving_focus.js';
 
 export class SegmentList {
   #list = $('segments'); #rows = []; #document = null; #counted = 0; #go; #current = null;
@@ -16,10 +15,10 @@ export class SegmentList {
   /** Show a document. Rows whose segment is the same object stay as they are: an edit changes one or two. */
   show(document) {
     const before = this.#document?.segments || [];
-    const whole = before.length !== document.segments.length || this.#counted !== countsFrom();
+    const whole = before.length !== document.segments.length || this.#counted !== firstFrameNumber();
     this.#document = document;
-    this.#counted = countsFrom();
-    $('column-frames').textContent = this.#counted ? 'frames' : 'from';
+    this.#counted = firstFrameNumber();
+    $('column-frames').textContent = this.#counted ? 'frames' : 'start';
     if (whole) return this.#fill();
     document.segments.forEach((segment, index) => {
       if (segment === before[index]) return;
@@ -40,34 +39,34 @@ export class SegmentList {
     this.#current = row;
     if (!row) return;
     row.setAttribute('aria-current', 'true');
-    inView(this.#list, row);
+    scrollToRow(this.#list, row);
   }
 
   #fill() {
     this.#rows = this.#document.segments.map((_, index) => this.#row(index));
     this.#current = null;
     this.#list.replaceChildren(...this.#rows.map((row) => make('li', {}, row)));
-    stop(this.#list, 'button');
+    setTabStop(this.#list, 'button');
   }
 
   #row(index) {
     const segment = this.#document.segments[index];
     const length = duration((segment.end - segment.start) / this.#document.frame_rate);
-    const place = this.#counted ? shownInterval(segment.start, segment.end) : shownFrame(segment.start);
+    const place = this.#counted ? intervalText(segment.start, segment.end) : frameText(segment.start);
     const row = make('button', { type: 'button', className: 'segment', tabIndex: -1, onclick: () => this.#go(index) },
-      swatch(segment.motion),
+      motionSwatch(segment.motion),
       make('span', { className: 'name', title: segment.name }, segment.name),
-      unseen(this.#counted ? ' frames ' : ' from frame '),
+      screenReaderText(this.#counted ? ' frames ' : ' from frame '),
       make('span', { className: 'from' }, place),
-      unseen(' lasts '),
+      screenReaderText(' lasts '),
       make('span', { className: 'long' }, length),
-      make('span', { className: 'marks' }, segment.loop ? make('span', {}, '↻', unseen(' loops')) : null,
-        doubtful(segment) ? make('b', { title: 'The method is in doubt about where this ends' }, '?', unseen(' doubtful end')) : null));
-    if (segment.discard) row.append(unseen(' discarded'));
+      make('span', { className: 'marks' }, segment.loop ? make('span', {}, '↻', screenReaderText(' loops')) : null,
+        isDoubtful(segment) ? make('b', { title: 'The method doubts where this segment ends' }, '?', screenReaderText(' doubtful end')) : null));
+    if (segment.discard) row.append(screenReaderText(' discarded'));
     row.classList.toggle('discarded', Boolean(segment.discard));
     return row;
   }
 }
 
 /** Wire the list once. */
-export const segmentList = () => roving($('segments'), 'button');
+export const addSegmentList = () => addRovingFocus($('segments'), 'button');

@@ -1,33 +1,35 @@
 // Another number of motions, another method: asked of the same animation, so the vertices are not touched again.
 
 import * as api from '../service/api.js';
+import { waitUntilDone } from '../service/job_status.js';
 import { $, make } from '../dom.js';
-import { showScores } from './score_chart.js';
+import { count } from '../number_format.js';
 
 const DELAY = 350; // ms of quiet before a typed or stepped number is sent
-const MOST = 1000; // motions; the service takes no more
+const SOON = 150; // ms after which a wait is said
 
 let choose = () => {};
-let told = new Set(); // the methods that cannot find the number of motions themselves
+let most = Infinity; // motions that the service takes, once it has said so
+let needsNumber = new Set(); // the methods that cannot find the number of motions themselves
 let compared = { of: '', scores: [] }; // a cut into a given number has no scores: those of the same method stay
 
-/** Wire the form once. `recut(changes)` posts; `current()` is the document on screen. */
-export function controls({ recut, current }) {
+/** Wire the form once. `resegment(changes)` posts; `current()` is the document on screen. */
+export function addSegmentationForm({ resegment, current }) {
   const field = $('motions');
   let timer;
   const send = (changes, delay = 0) => {
     clearTimeout(timer);
-    timer = setTimeout(() => recut(changes), delay);
+    timer = setTimeout(() => resegment(changes), delay);
   };
   const typed = () => {
     const text = field.value.trim().toLowerCase();
     if (text === '' || text === 'auto') return 'auto';
     const number = Number(text);
-    return Number.isInteger(number) && number > 0 && number <= MOST ? number : null;
+    return Number.isInteger(number) && number > 0 && number <= most ? number : null;
   };
   const step = (by) => {
     const from = typed();
-    const number = Math.max(1, Math.min(MOST, (from === 'auto' || from === null ? current().motions : from) + by));
+    const number = Math.max(1, Math.min(most, (from === 'auto' || from === null ? current().motions : from) + by));
     field.value = number;
     $('auto').setAttribute('aria-pressed', 'false');
     send({ motions: number }, DELAY);
@@ -42,26 +44,26 @@ export function controls({ recut, current }) {
   });
   field.addEventListener('change', () => {
     const motions = typed();
-    if (motions === null) note(`A whole number of motions up to ${MOST}, or auto.`);
-    else if (motions === 'auto' && told.has(current().method)) note(`The method ${current().method} must be told a number.`);
+    if (motions === null) showFormNote(`Type a whole number of motions up to ${most}, or auto.`);
+    else if (motions === 'auto' && needsNumber.has(current().method)) showFormNote(`The method ${current().method} needs a number of motions.`);
     else send({ motions });
   });
   $('method').addEventListener('change', ({ target: { value: method } }) => {
-    send(told.has(method) && typed() === 'auto' ? { method, motions: current().motions } : { method });
+    send(needsNumber.has(method) && typed() === 'auto' ? { method, motions: current().motions } : { method });
   });
   $('controls').addEventListener('submit', (event) => event.preventDefault());
 }
 
-export function note(sentence) { $('controls-note').textContent = sentence; }
+export function showFormNote(sentence) { $('controls-note').textContent = sentence; }
 
 /** Show what the document was made with. */
-export function reflect(document) {
+export function showParameters(document) {
   const { motions } = document.parameters;
   const auto = motions === 'auto' || motions === undefined;
   $('motions').value = auto ? '' : motions;
   $('motions').placeholder = document.motions;
   $('auto').setAttribute('aria-pressed', String(auto));
-  $('auto').disabled = told.has(document.method);
+  $('auto').disabled = needsNumber.has(document.method);
   const select = $('method');
   if (![...select.options].some((option) => option.value === document.method)) select.append(option(document.method));
   select.value = document.method;
@@ -71,15 +73,78 @@ export function reflect(document) {
   showScores(compared.scores, chosen, choose);
 }
 
+/** Segment the take of a result with other parameters, after the open edits are saved. */
+export async function resegment(result, changes, signal) {
+  const waiting = setTimeout(() => showFormNote('Segmenting again …'), SOON);
+  try {
+    const { saving } = result.editor;
+    await saving.flush();
+    const { id } = await api.segment(result.status.animation, { ...result.document.parameters, ...changes });
+    const status = await waitUntilDone(id, () => {}, signal);
+    const document = await api.result(id, status.revision);
+    if (signal.aborted || result.closed) return;
+    const left = id !== result.document.id && saving.shown > 0;
+    history.pushState(null, '', `/view/${id}${location.hash}`);
+    result.show(document, status);
+    showFormNote(`The take now has ${count(document.motions, 'motion')} in ${count(document.segments.length, 'segment')}.${left ? ' Your edits belong to the result before: go back to see them.' : ''}`);
+  } catch (problem) {
+    if (problem.name === 'AbortError' || result.closed) return;
+    showFormNote(problem.message);
+    showParameters(result.document);
+  } finally { clearTimeout(waiting); }
+}
+
 const option = (name, title = '') => make('option', { value: name, title }, name);
 
 /** Fill the choice of methods from what the service offers. */
 export async function offerMethods() {
   const answer = await api.methods().catch(() => null);
   if (!answer) return;
-  told = new Set(answer.methods.filter(({ parameters }) => parameters.required?.includes('motions')).map(({ name }) => name));
+  needsNumber = new Set(answer.methods.filter(({ parameters }) => parameters.required?.includes('motions')).map(({ name }) => name));
+  most = answer.methods[0].parameters.properties.motions.anyOf.find(({ type }) => type === 'integer').maximum;
   const chosen = $('method').value;
   $('method').replaceChildren(...answer.methods.map(({ name, description }) => option(name, description)));
   if (chosen) $('method').value = chosen;
-  $('auto').disabled = told.has(chosen);
+  $('auto').disabled = needsNumber.has(chosen);
+}
+
+const WIDE = 280;
+const HIGH = 64;
+const EDGE = { left: 12, right: 12, top: 10, bottom: 18 };
+
+const svg = (tag, attributes, text = '') => {
+  const element = document.createElementNS($('scores').querySelector('svg').namespaceURI, tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.textContent = text;
+  return element;
+};
+
+/** Draw `scores` with `chosen` marked; hidden where there is nothing to compare. `choose(motions)` is called on a click. */
+export function showScores(scores, chosen, choose) {
+  $('scores').hidden = scores.length < 2;
+  if (scores.length < 2) return;
+  const chart = $('scores').querySelector('svg');
+  const step = (WIDE - EDGE.left - EDGE.right) / (scores.length - 1);
+  const most = Math.max(...scores.map(({ score }) => score)) || 1;
+  const x = (i) => EDGE.left + i * step;
+  const y = (score) => EDGE.top + (1 - Math.max(0, score) / most) * (HIGH - EDGE.top - EDGE.bottom);
+  const every = Math.max(1, Math.ceil(scores.length / 12)); // numbers below, no more than are read
+  const line = scores.map(({ score }, i) => `${i ? 'L' : 'M'}${x(i).toFixed(1)} ${y(score).toFixed(1)}`).join('');
+  const at = scores.findIndex(({ motions }) => motions === chosen);
+  const numbered = (i) => i === at || (i % every === 0 && Math.abs(i - at) >= every);
+  chart.setAttribute('viewBox', `0 0 ${WIDE} ${HIGH}`);
+  chart.setAttribute('aria-label', `Error for each number of motions: ${scores.map(({ motions, score }) => `${motions}: ${Math.round(100 * score)} %`).join(', ')}. This result has ${chosen}.`);
+  chart.replaceChildren(
+    svg('path', { class: 'base', d: `M0 ${HIGH - EDGE.bottom + 0.5}H${WIDE}` }),
+    ...(at < 0 ? [] : [svg('path', { class: 'drop-line', d: `M${x(at)} ${y(scores[at].score)}V${HIGH - EDGE.bottom}` })]),
+    svg('path', { class: 'line', d: line }),
+    ...scores.map(({ score }, i) => svg('circle', { class: i === at ? 'dot chosen' : 'dot', cx: x(i), cy: y(score), r: i === at ? 4.5 : 2.5 })),
+    ...scores.map(({ motions }, i) => (numbered(i) ? svg('text', { x: x(i), y: HIGH - 4, class: i === at ? 'chosen' : '' }, motions) : null)).filter(Boolean),
+    ...scores.map(({ motions, score }, i) => {
+      const area = svg('rect', { x: x(i) - step / 2, y: 0, width: step, height: HIGH });
+      area.append(svg('title', {}, `${count(motions, 'motion')}: ${Math.round(100 * score)} % error`));
+      area.addEventListener('click', () => choose(motions));
+      return area;
+    }),
+  );
 }

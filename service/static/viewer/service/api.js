@@ -1,6 +1,6 @@
 // The REST calls of the page. It is a client like any other: nothing here that curl could not do.
 
-import { signedIn } from './sign_in.js';
+import { waitForSignIn } from './sign_in.js';
 
 /** A refusal, with the problem document (RFC 9457) it came with. */
 export class Problem extends Error {
@@ -20,7 +20,7 @@ async function call(method, path, { body, headers, signal } = {}) {
     if (failure.name === 'AbortError') throw failure;
     throw new Problem(UNREACHABLE);
   }
-  if (answer.status === 401) { await signedIn(); return call(method, path, { body, headers, signal }); }
+  if (answer.status === 401) { await waitForSignIn(); return call(method, path, { body, headers, signal }); }
   if (!answer.ok) throw new Problem(await problemOf(answer));
   return answer.status === 204 ? null : answer.json();
 }
@@ -43,10 +43,11 @@ const json = (value) => ({ body: JSON.stringify(value), headers: { 'Content-Type
 export const recentAnimations = () => call('GET', '/v1/animations');
 export const segmentationsOf = (id) => call('GET', `/v1/segmentations?animation=${id}`);
 export const methods = () => call('GET', '/v1/methods');
+export const exports = () => call('GET', '/v1/exports');
 export const status = (id, wait, signal) =>
   call('GET', `/v1/segmentations/${id}`, { headers: wait ? { Prefer: `wait=${wait}` } : {}, signal });
 export const result = (id, revision = 0) =>
-  call('GET', `/v1/segmentations/${id}/result${asked(revision)}`, { headers: { Accept: 'application/json' } });
+  call('GET', `/v1/segmentations/${id}/result${revisionQuery(revision)}`, { headers: { Accept: 'application/json' } });
 export const revisions = (id) => call('GET', `/v1/segmentations/${id}/revisions`);
 export const viewer = (id) => call('GET', `/v1/segmentations/${id}/viewer`);
 export const cancel = (id) => call('DELETE', `/v1/segmentations/${id}`);
@@ -54,8 +55,8 @@ export const segment = (animationId, parameters = {}) =>
   call('POST', '/v1/segmentations', json({ animation: animationId, ...parameters }));
 
 /** Where a form of the result is, as of a revision: `result.csv`, `clips`, `plot.svg`. */
-export const form = (id, name, revision = 0) => `/v1/segmentations/${id}/${name}${asked(revision)}`;
-const asked = (revision) => (revision ? `?revision=${revision}` : '');
+export const exportAddress = (id, name, revision = 0) => `/v1/segmentations/${id}/${name}${revisionQuery(revision)}`;
+const revisionQuery = (revision) => (revision ? `?revision=${revision}` : '');
 
 /** Keep edited segments as the revision after number `newest`; 412 where somebody else has made one since. */
 export function revise(id, segments, newest, note) {
@@ -66,7 +67,7 @@ export function revise(id, segments, newest, note) {
 }
 
 /** Whether what a worker has to write first is there to be fetched, after waiting for it for a while. */
-export async function written(address) {
+export async function isWritten(address) {
   const answer = await fetch(address, { headers: { Prefer: 'wait=30', Range: 'bytes=0-0' } }).catch(() => null);
   if (!answer) throw new Problem(UNREACHABLE);
   if (!answer.ok) throw new Problem(await problemOf(answer));

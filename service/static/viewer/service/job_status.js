@@ -5,10 +5,10 @@ import * as api from './api.js';
 const OVER = new Set(['done', 'failed', 'cancelled']);
 
 /** The status document once it is done. `onStatus` hears every one on the way. Throws the problem it failed with. */
-export async function finished(id, onStatus, signal) {
+export async function waitUntilDone(id, onStatus, signal) {
   let status = await api.status(id, 0, signal);
   onStatus(status);
-  if (!OVER.has(status.status)) status = await listen(id, onStatus, signal).catch((e) => stopOr(e, null));
+  if (!OVER.has(status.status)) status = await followEvents(id, onStatus, signal).catch((e) => stopOr(e, null));
   while (!status || !OVER.has(status.status)) {
     status = await api.status(id, 15, signal);
     onStatus(status);
@@ -24,16 +24,16 @@ function stopOr(error, value) {
 }
 
 /** Follow the events until the last one; rejects when the stream breaks, and polling takes over. */
-function listen(id, onStatus, signal) {
+function followEvents(id, onStatus, signal) {
   return new Promise((resolve, reject) => {
     const stream = new EventSource(`/v1/segmentations/${id}/events`);
     const end = (settle, value) => { stream.close(); settle(value); };
-    const hear = (event) => {
+    const receive = (event) => {
       const status = JSON.parse(event.data);
       onStatus(status);
       if (OVER.has(status.status)) end(resolve, status);
     };
-    stream.addEventListener('status', hear);
+    stream.addEventListener('status', receive);
     stream.addEventListener('deleted', () => end(resolve, { status: 'cancelled' }));
     stream.onerror = () => end(reject, new Error('stream ended'));
     signal?.addEventListener('abort', () => end(reject, new DOMException('cancelled', 'AbortError')));

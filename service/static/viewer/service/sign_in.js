@@ -5,18 +5,18 @@ import { make } from '../dom.js';
 const SIGNED_IN = 'caesura-signed-in'; // in this browser's memory: only that it was done, to offer signing out
 
 /** Once somebody is signed in. However many calls wait, the person is asked once. */
-export function signedIn() {
-  asking ??= ask().finally(() => { asking = null; });
-  return asking;
+export function waitForSignIn() {
+  pending ??= askForKey().finally(() => { pending = null; });
+  return pending;
 }
-let asking = null;
+let pending = null;
 
-function ask() {
+function askForKey() {
   const key = make('input', { type: 'password', id: 'key', autocomplete: 'current-password', required: true });
   const problem = make('p', { className: 'problem', role: 'alert', hidden: true });
   const form = make('form', { method: 'dialog' },
-    make('h2', { id: 'sign-in' }, 'This service wants a key'),
-    make('p', { className: 'faint' }, 'Whoever keeps the service makes one for you.'),
+    make('h2', { id: 'sign-in' }, 'This service needs a key'),
+    make('p', { className: 'faint' }, 'Ask the person who runs the service for one.'),
     make('p', { className: 'ask' }, make('label', { htmlFor: 'key' }, 'Key'), key, make('button', { type: 'submit', className: 'primary' }, 'Sign in')),
     problem);
   const dialog = make('dialog', { 'aria-labelledby': 'sign-in' }, form);
@@ -26,7 +26,7 @@ function ask() {
   return new Promise((resolve) => {
     form.addEventListener('submit', async (event) => {
       event.preventDefault();
-      const refused = await refusal(key.value);
+      const refused = await refusalOf(key.value);
       problem.textContent = refused;
       problem.hidden = !refused;
       if (refused) { key.select(); return; }
@@ -40,7 +40,7 @@ function ask() {
 }
 
 /** Why the key was refused; empty where it was taken. */
-async function refusal(key) {
+async function refusalOf(key) {
   const answer = await fetch('/v1/session', {
     method: 'POST', body: JSON.stringify({ key }), headers: { 'Content-Type': 'application/json' },
   }).catch(() => null);

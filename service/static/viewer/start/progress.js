@@ -1,11 +1,11 @@
 // The wait: every stage as it comes, ticked when it is over.
 
 import { $, make } from '../dom.js';
-import { stageInWords } from './stages.js';
+import { count } from '../number_format.js';
 
 let stages = [];
 
-export function beginProgress(name) {
+export function resetProgress(name) {
   stages = [];
   $('stages').replaceChildren();
   $('waiting-name').textContent = name || 'Working';
@@ -14,8 +14,8 @@ export function beginProgress(name) {
 }
 
 /** Show a stage, and how much of it is done (null where nobody knows). */
-export function progress(stage, fraction = null, note = fraction === null ? '' : `${Math.round(100 * fraction)} %`) {
-  const words = stageInWords(stage);
+export function showStage(stage, fraction = null, note = fraction === null ? '' : `${Math.round(100 * fraction)} %`) {
+  const words = stageText(stage);
   if (words && stages.at(-1) !== words) {
     stages.push(words);
     $('stages').querySelector('[aria-current]')?.removeAttribute('aria-current');
@@ -27,10 +27,27 @@ export function progress(stage, fraction = null, note = fraction === null ? '' :
 }
 
 /** The same for a status document of the service. */
-export function statusProgress(status) {
+export function showStatus(status) {
   const { stage, fraction } = status.progress || {};
   if (status.status === 'queued') {
     const ahead = status.position || 0;
-    progress('queued', null, ahead ? `${ahead} before this one` : '');
-  } else if (status.status === 'running') progress(stage || 'read', fraction ?? null);
+    showStage('queued', null, ahead ? `${count(ahead, 'job')} before this one` : '');
+  } else if (status.status === 'running') showStage(stage || 'read', fraction ?? null);
 }
+
+/** Those of the page itself, the worker's and the method's. */
+export const STAGES = {
+  upload: 'Sending the file',
+  queued: 'Waiting for a free worker',
+  read: 'Reading the file',
+  'rest shape': 'Measuring the figure at rest',
+  sample: 'Sampling the take',
+  strain: 'Measuring the strain of the surface',
+  energy: 'Computing the energy curve',
+  'key-frames': 'Choosing the key-frames',
+  cut: 'Finding the motions',
+  figure: 'Preparing the figure',
+};
+
+/** A stage in words. A stage this page has not heard of is shown under its own name. */
+export const stageText = (stage) => STAGES[stage] || (stage ? stage[0].toUpperCase() + stage.slice(1).replaceAll('-', ' ') : '');

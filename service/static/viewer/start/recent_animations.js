@@ -14,10 +14,10 @@ export async function showRecent(open) {
   $('recent').querySelector('ul').replaceChildren(...animations.map((animation) => make('li', {},
     make('button', { type: 'button', className: 'animation', onclick: () => open(animation) },
       make('strong', {}, animation.name || 'unnamed'),
-      make('span', {}, facts(animation))))));
+      make('span', {}, animationFacts(animation))))));
 }
 
-function facts({ format, take_count: takes, duration_seconds: seconds, triangles, created }) {
+function animationFacts({ format, take_count: takes, duration_seconds: seconds, triangles, created }) {
   return [
     format && format.toUpperCase(),
     seconds !== null && duration(seconds),

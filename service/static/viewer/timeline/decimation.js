@@ -2,7 +2,7 @@
 // no peak is lost however many frames a column stands for.
 
 /** [frames, values] of `values[from…to)`, at most two points a column; null where there is no value. */
-export function thinned(values, from, to, columns) {
+export function decimate(values, from, to, columns) {
   const first = Math.max(0, Math.floor(from) - 1);
   const last = Math.min(values.length, Math.ceil(to) + 2);
   if (last - first <= 2 * columns) {

@@ -1,26 +1,26 @@
 // The energy curve, its key-frames and the cuts, over the colours of the motions.
 
 import uPlot from 'uplot';
-import { doubtful } from '../editing/certainty.js';
-import { numberOf } from '../frame_numbering.js';
-import { onceAFrame, onResize, onTheme, styled } from '../dom.js';
-import { colourOf } from '../palette.js';
-import { thinned } from './decimation.js';
+import { isDoubtful } from '../editing/segment_edits.js';
+import { frameNumber } from '../number_format.js';
+import { oncePerFrame, onResize, onThemeChange, styleValue } from '../dom.js';
+import { motionColour } from '../palette.js';
+import { decimate } from './decimation.js';
 
 const AXIS = 46;
 const RIGHT = 18; // room for half of the last number
 
-export class Curve {
-  #plot; #box; #span; #document; #width;
+export class EnergyCurve {
+  #plot; #box; #range; #document; #width;
 
-  constructor(box, document, span, signal) {
+  constructor(box, document, range, signal) {
     this.#box = box;
     this.#width = box.clientWidth; // kept, for asking makes the browser lay out the page
-    this.#span = span;
+    this.#range = range;
     this.#document = document;
-    this.refresh = onceAFrame(() => this.#fill());
-    span.listen(this.refresh);
-    onTheme(() => this.#draw(), signal);
+    this.refresh = oncePerFrame(() => this.#fill());
+    range.listen(this.refresh);
+    onThemeChange(() => this.#draw(), signal);
     this.#draw();
     onResize(box, () => this.#fit(), signal);
   }
@@ -44,9 +44,9 @@ export class Curve {
     this.#plot?.destroy();
     this.#box.replaceChildren();
     const highest = this.#document.energy.reduce((most, value) => (value > most ? value : most), 0) || 1;
-    const faint = styled('--faint');
-    const grid = { stroke: styled('--hairline'), width: 1 };
-    const axis = { stroke: faint, grid, ticks: { show: false }, font: `11px ${styled('--sans')}` };
+    const faint = styleValue('--faint');
+    const grid = { stroke: styleValue('--hairline'), width: 1 };
+    const axis = { stroke: faint, grid, ticks: { show: false }, font: `11px ${styleValue('--sans')}` };
     this.#plot = new uPlot({
       width: this.#width || 600,
       height: this.#box.clientHeight || 150,
@@ -54,14 +54,14 @@ export class Curve {
       legend: { show: false },
       cursor: { show: false },
       scales: {
-        x: { time: false, range: () => [this.#span.from, this.#span.to] },
+        x: { time: false, range: () => [this.#range.from, this.#range.to] },
         y: { range: () => [0, highest * 1.12] },
       },
       axes: [
-        { ...axis, size: 22, gap: 4, space: 70, values: (_, ticks) => ticks.map((t) => (Number.isInteger(t) ? numberOf(t) : '')) },
+        { ...axis, size: 22, gap: 4, space: 70, values: (_, ticks) => ticks.map((t) => (Number.isInteger(t) ? frameNumber(t) : '')) },
         { ...axis, size: AXIS, gap: 6, space: 34, values: (_, ticks) => ticks.map((t) => +t.toFixed(2)) },
       ],
-      series: [{}, { stroke: styled('--ink'), width: 1.5, points: { show: false }, spanGaps: false }],
+      series: [{}, { stroke: styleValue('--ink'), width: 1.5, points: { show: false }, spanGaps: false }],
       hooks: { drawClear: [(u) => this.#underlay(u)], draw: [(u) => this.#overlay(u)] },
     }, [[0], [null]], this.#box);
     this.#fill();
@@ -75,8 +75,8 @@ export class Curve {
   }
 
   #fill() {
-    const { from, to } = this.#span;
-    this.#plot.setData(thinned(this.#document.energy, from, to, this.plot.width));
+    const { from, to } = this.#range;
+    this.#plot.setData(decimate(this.#document.energy, from, to, this.plot.width));
   }
 
   /** What motion each stretch is, as a tint behind the curve. */
@@ -86,11 +86,11 @@ export class Curve {
     ctx.beginPath();
     ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
     ctx.clip();
-    ctx.globalAlpha = Number(styled('--tint'));
-    const faint = styled('--faint');
+    ctx.globalAlpha = Number(styleValue('--tint'));
+    const faint = styleValue('--faint');
     for (const segment of this.#visible()) {
       const left = u.valToPos(segment.start, 'x', true);
-      ctx.fillStyle = segment.discard ? faint : colourOf(segment.motion);
+      ctx.fillStyle = segment.discard ? faint : motionColour(segment.motion);
       ctx.fillRect(left, bbox.top, u.valToPos(segment.end, 'x', true) - left, bbox.height);
     }
     ctx.restore();
@@ -104,14 +104,14 @@ export class Curve {
     ctx.beginPath();
     ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
     ctx.clip();
-    ctx.strokeStyle = styled('--ink');
+    ctx.strokeStyle = styleValue('--ink');
     ctx.lineWidth = ratio;
     const visible = this.#visible();
     // A line every few pixels would hide the curve: the closer they stand, the fainter they are.
     ctx.globalAlpha = Math.min(0.6, this.plot.width / visible.length / 40);
     for (const segment of visible) {
       if (segment.end >= this.#document.frames) continue;
-      ctx.setLineDash(doubtful(segment) ? [3 * ratio, 3 * ratio] : []);
+      ctx.setLineDash(isDoubtful(segment) ? [3 * ratio, 3 * ratio] : []);
       const x = Math.round(u.valToPos(segment.end, 'x', true)) + 0.5;
       ctx.beginPath();
       ctx.moveTo(x, bbox.top);
@@ -125,14 +125,14 @@ export class Curve {
   }
 
   #keys(u, ctx, ratio) {
-    const { from, to } = this.#span;
+    const { from, to } = this.#range;
     const keys = this.#document.key_frames.filter((key) => key.frame >= from && key.frame < to);
     // Thousands of dots are a smear: shrink them as they crowd.
     const radius = Math.max(1.2, Math.min(4, (2.2 * this.plot.width) / Math.max(1, keys.length) / 4)) * ratio;
-    ctx.strokeStyle = styled('--panel');
+    ctx.strokeStyle = styleValue('--panel');
     ctx.lineWidth = radius > 2 * ratio ? 1.5 * ratio : 0;
     for (const key of keys) {
-      ctx.fillStyle = colourOf(key.motion);
+      ctx.fillStyle = motionColour(key.motion);
       ctx.beginPath();
       ctx.arc(u.valToPos(key.frame, 'x', true), u.valToPos(key.energy, 'y', true), radius, 0, 7);
       ctx.fill();
@@ -141,7 +141,7 @@ export class Curve {
   }
 
   #visible() {
-    const { from, to } = this.#span;
+    const { from, to } = this.#range;
     return this.#document.segments.filter((segment) => segment.end > from && segment.start < to);
   }
 }

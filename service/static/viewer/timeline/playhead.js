@@ -1,10 +1,10 @@
-// The one moment the page shows. Everything that shows time listens here; nothing else keeps a frame.
+// The playhead: the one frame the page shows, and playback. Everything that shows time listens here; nothing else keeps a frame.
 
-export class Clock {
+export class Playhead {
   #listeners = new Set();
   #last = 0;
 
-  /** `ready(frame)`: false holds the clock, so that playback never runs ahead of what has been fetched. */
+  /** `ready(frame)`: false holds the playhead, so that playback never runs ahead of what has been fetched. */
   constructor(frames, rate, ready = () => true) {
     Object.assign(this, { frames, rate, ready, position: 0, speed: 1, playing: false, held: false, loop: null, until: null });
   }
@@ -16,7 +16,7 @@ export class Clock {
   seek(frame) {
     this.position = Math.max(0, Math.min(this.frames - 1, frame));
     if (this.loop && (this.frame < this.loop[0] || this.frame >= this.loop[1])) this.loop = null;
-    this.tell();
+    this.notify();
   }
 
   toggle(playing = !this.playing) {
@@ -25,14 +25,14 @@ export class Clock {
   }
 
   /** Play [start, end) once, at normal speed, then come to rest at `rest`. Nobody hears of `start` as of a place to stay. */
-  once(start, end, rest) {
+  playOnce(start, end, rest) {
     this.loop = null;
     this.position = Math.max(0, start);
     this.until = { end: Math.min(end, this.frames - 1), rest };
     this.#run(true);
   }
 
-  tell() { for (const listener of this.#listeners) listener(this); }
+  notify() { for (const listener of this.#listeners) listener(this); }
 
   #run(playing) {
     if (playing === this.playing) return;
@@ -40,7 +40,7 @@ export class Clock {
     this.playing = playing;
     this.#last = 0;
     if (playing) requestAnimationFrame((now) => this.#tick(now));
-    this.tell();
+    this.notify();
   }
 
   #tick(now) {
@@ -64,7 +64,7 @@ export class Clock {
       this.position = next;
       if (done) this.until = null;
     }
-    this.tell();
+    this.notify();
     if (this.playing) requestAnimationFrame((later) => this.#tick(later));
   }
 }

@@ -2,7 +2,7 @@
 
 const FEWEST = 8; // frames; nearer than this there is nothing to see
 
-export class Span {
+export class VisibleRange {
   #listeners = new Set();
 
   constructor(frames) {
@@ -24,12 +24,12 @@ export class Span {
     for (const listener of this.#listeners) listener(this);
   }
 
-  all() { this.set(0, this.frames); }
+  showAll() { this.set(0, this.frames); }
 
   /** Zoom by `factor`, keeping `frame` where it is on screen. */
   zoom(factor, frame) {
     const length = this.length / factor;
-    if (length >= this.frames) return this.all();
+    if (length >= this.frames) return this.showAll();
     const share = (frame - this.from) / this.length;
     const kept = Math.max(FEWEST, length);
     this.set(frame - share * kept, frame + (1 - share) * kept);
