@@ -21,8 +21,8 @@ from benchmarks.scores import Row, Scores
 from benchmarks.sequences import Known, sequences
 from benchmarks.table import HEAD, line, means, promises
 from caesura.core.errors import ParameterError
-from caesura.core.methods import METHODS
-from caesura.core.parameters import METHODS_NEEDING_MOTIONS, Parameters
+from caesura.core.methods.table import METHODS
+from caesura.core.parameters import Parameters
 from caesura.core.pipeline import cut
 
 RANDOM = frozenset({"joint-entropy", "spectral", "aca", "haca"})
@@ -34,7 +34,7 @@ FEATURES = {"joint-entropy": "strain", "clasp": "leading", "fluss": "leading"}
 def rows(known: Known, methods: list[str], seeds: int) -> Iterator[Row]:
     """Each method on one take; a method that refuses the take has no row."""
     for method in methods:
-        for told in ("K",) if method in METHODS_NEEDING_MOTIONS else ("K", "auto"):
+        for told in ("K",) if METHODS[method].needs_motions else ("K", "auto"):
             asked = known.motions if told == "K" else "auto"
             found = []
             for seed in range(seeds if method in RANDOM else 1):

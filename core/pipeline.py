@@ -14,7 +14,7 @@ from caesura.core.document import Notice, Source
 from caesura.core.energy.energy_curve import compute_energy_curve, frames_per_window
 from caesura.core.energy.key_frames import find_local_maxima
 from caesura.core.errors import InvalidModel
-from caesura.core.methods import find_method
+from caesura.core.methods.table import METHODS
 from caesura.core.parameters import ALGORITHM, Parameters
 from caesura.core.progress import Progress, ignore_progress
 from caesura.core.repetition.repetitions import RepetitionFinder, find_repetitions
@@ -96,7 +96,7 @@ def segment(
 
 def cut(analysis: Analysis, parameters: Parameters) -> Segmentation:
     """The segments of an analysed take, by the method the parameters name. No vertices are touched."""
-    found = find_method(parameters.method)(analysis, parameters)
+    found = METHODS[parameters.method].load()(analysis, parameters)
     labels = number_by_appearance(found.labels)
     changes = np.count_nonzero(np.diff(labels))
     return Segmentation(

@@ -1,21 +1,10 @@
-"""The methods, by name: each cuts a take by what was computed once from its vertices.
+"""The methods: from an analysis to cuts and motions. One folder a family, one table of all.
 
-The module of a method has its name, and so has the function in it. It is imported at its first use: most methods need
-scikit-learn, which takes a second to load, and the default does not.
+table           the methods by name
+switching       the default: switching k-means on windowed features
+joint_entropy   the paper's: key-frames grouped by k-means
+alignment       compared with: aligned cluster analysis in one level and two, spectral clustering
+luo2014         compared with: segments of least dissimilarity
+comparison      what the compared methods share
+pose_features   all descriptors of a frame side by side
 """
-
-from collections.abc import Callable
-from importlib import import_module
-
-from caesura.core.analysis import Analysis
-from caesura.core.parameters import Parameters
-from caesura.core.segmentation import Cut
-
-METHODS = ("switching", "joint-entropy", "luo2014", "spectral", "aca", "haca")
-
-
-def find_method(name: str) -> Callable[[Analysis, Parameters], Cut]:
-    """The function of one of `METHODS`."""
-    name = name.replace("-", "_")
-    found: Callable[[Analysis, Parameters], Cut] = getattr(import_module(f"caesura.core.methods.{name}"), name)
-    return found

@@ -3,7 +3,8 @@
 import time
 from collections.abc import Sequence
 
-from caesura.core.parameters import ALGORITHM, METHODS_NEEDING_MOTIONS, Parameters
+from caesura.core.methods.table import METHODS
+from caesura.core.parameters import ALGORITHM, Parameters
 from caesura.formats.take_selection import select_take
 from caesura.service.backend import Backend
 from caesura.service.problems.status_table import Refusal
@@ -49,7 +50,7 @@ def submit_segmentation(
         created=now,
         updated=now,
     )
-    if chosen.motions != "auto" and chosen.method not in METHODS_NEEDING_MOTIONS:
+    if chosen.motions != "auto" and not METHODS[chosen.method].needs_motions:
         unasked = _identifier(backend, animation, chosen.model_copy(update={"motions": "auto"}))
         stored = restore_alternative(backend.jobs.records, wanted, unasked)
         if stored is not None:

@@ -7,7 +7,7 @@ import pytest
 
 from caesura.core.analysis import Analysis
 from caesura.core.errors import InvalidModel, ParameterError
-from caesura.core.methods import METHODS
+from caesura.core.methods.table import METHODS
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse, cut, segment
 from tests import oracles

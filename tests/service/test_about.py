@@ -3,7 +3,7 @@
 import pytest
 
 from caesura.core.limits import Limits
-from caesura.core.parameters import METHODS_NEEDING_MOTIONS
+from caesura.core.methods.table import METHODS
 from tests.service.conftest import UPLOAD_LIMIT
 
 
@@ -17,7 +17,7 @@ def test_each_method_comes_with_the_schema_of_its_parameters(idle):
         assert method["description"]
         assert method["parameters"]["properties"]["method"]["const"] == method["name"]
         needed = "motions" in method["parameters"].get("required", ())
-        assert needed == (method["name"] in METHODS_NEEDING_MOTIONS)
+        assert needed == METHODS[method["name"]].needs_motions
         assert needed or method["parameters"]["properties"]["motions"]["default"] == "auto"
 
 

@@ -14,7 +14,7 @@ from caesura.core.analysis import Analysis
 from caesura.core.animation import Animation, Take
 from caesura.core.errors import InvalidModel
 from caesura.core.limits import Limits
-from caesura.core.methods import METHODS, find_method
+from caesura.core.methods.table import METHODS
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse, cut
 from caesura.formats.gltf.json_object import JsonObject
@@ -37,15 +37,15 @@ def warm_up() -> None:
     for mode in MODES:
         with suppress(InvalidModel):  # what is in it does not matter: its loops are compiled to find that out
             decode_view(JsonObject({"mode": mode, "count": 3, "byteStride": 4}, ""), memoryview(bytes(40)))
-    for method in METHODS:
-        find_method(method)  # before the limit, which holds for what is loaded
+    for method in METHODS.values():
+        method.load()  # before the limit, which holds for what is loaded
     animation = example_sheet()
     parameters = Parameters(motions=2)
     with threadpool_limits(1):
         analysis = analyse(animation, parameters, threads=1)
         _rehearsed_analyses.append(analysis)
-        for method in filter("haca".__ne__, METHODS):  # its loops are those of aca, run thousands of times
-            cut(analysis, parameters.model_copy(update={"method": method}))
+        for name in filter("haca".__ne__, METHODS):  # its loops are those of aca, run thousands of times
+            cut(analysis, parameters.model_copy(update={"method": name}))
 
 
 def rehearse_cuts() -> None:

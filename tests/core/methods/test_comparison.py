@@ -7,11 +7,11 @@ from caesura.core.agreement import frame_accuracy
 from caesura.core.analysis import Analysis, Features
 from caesura.core.document import Source
 from caesura.core.errors import ParameterError
-from caesura.core.methods import find_method
-from caesura.core.parameters import METHODS_NEEDING_MOTIONS, Parameters
+from caesura.core.methods.table import METHODS
+from caesura.core.parameters import Parameters
 
 RATE = 30.0
-NAMES = sorted(METHODS_NEEDING_MOTIONS)
+NAMES = sorted(name for name, method in METHODS.items() if method.needs_motions)
 
 
 def performance(order=(0, 1, 2, 0, 1), seconds=5.0, seed=0, components=6):
@@ -45,7 +45,7 @@ def analysis_of(values, rate=RATE):
 
 
 def cut(name, values, motions, rate=RATE, seed=0):
-    return find_method(name)(analysis_of(values, rate), Parameters(method=name, motions=motions, seed=seed))
+    return METHODS[name].load()(analysis_of(values, rate), Parameters(method=name, motions=motions, seed=seed))
 
 
 @pytest.mark.parametrize(("name", "least"), [("aca", 0.99), ("haca", 0.95), ("luo2014", 0.99), ("spectral", 0.99)])
@@ -121,4 +121,4 @@ def test_where_nothing_deforms_there_is_one_segment(name):
     """However many were asked for."""
     values, _ = performance((0, 1), 2.0)
     still = analysis_of(np.zeros_like(values))
-    assert set(find_method(name)(still, Parameters(method=name, motions=3)).labels.tolist()) == {0}
+    assert set(METHODS[name].load()(still, Parameters(method=name, motions=3)).labels.tolist()) == {0}

@@ -152,7 +152,7 @@ def test_the_same_result_is_the_same_bytes():
     """Also in another process, whatever its hashes are."""
     program = (
         "import hashlib; from tests.core.plot.test_plot import *;"
-        "print(hashlib.sha256(svg(picture_of(document())).encode() + png(picture_of(document()))).hexdigest())"
+        "print(hashlib.sha256(render_svg(lay_out_picture(document())).encode() + render_png(lay_out_picture(document()))).hexdigest())"
     )
     said = [subprocess.run([sys.executable, "-c", program], capture_output=True, check=True).stdout for _ in range(2)]
     assert said[0] == said[1]
