@@ -107,7 +107,7 @@ REVISION_BODY: dict[str, Any] = {
     "requestBody": {
         "required": True,
         "description": "Segments that tile the take, motions by any numbers, one name for each motion.",
-        "content": {"application/json": {"schema": {"$ref": "#/components/schemas/RevisionOrder"}}},
+        "content": {"application/json": {"schema": {"$ref": "#/components/schemas/RevisionRequest"}}},
     },
 }
 

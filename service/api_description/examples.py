@@ -83,7 +83,7 @@ EXAMPLES: dict[str, dict[str, Any]] = {
         "key_frames": [{"frame": 1, "seconds": 0.033333, "energy": 1.25, "motion": 0}],
         "energy": [None, 1.25, 1.1, None],
     },
-    "RevisionOrder": {
+    "RevisionRequest": {
         "segments": [
             {"start": 0, "end": 3, "motion": 0, "name": "walk", "loop": True},
             {"start": 3, "end": 4, "motion": 1, "discard": True},

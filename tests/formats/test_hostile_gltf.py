@@ -445,10 +445,14 @@ def test_skins_that_share_nodes_are_counted_by_their_bones() -> None:
 
 
 def test_a_name_as_long_as_a_file_is_cut() -> None:
-    """It would be kept and sent with every answer; by its beginning, or all of it, the take is found."""
+    """It would be kept and sent with every answer; that is said. As it is shown, or by all of it, it is found."""
     model = moving_square()
     model.json["animations"] = [{**model.json["animations"][0], "name": name} for name in ("N" * 10**6, "other")]
-    assert opened(model.glb(), take="N" * 10**6).take.name == "N" * 1000
+    shown = "N" * 99 + "…"
+    for asked in ("N" * 10**6, shown):
+        animation = opened(model.glb(), take=asked)
+        assert animation.take.name == shown
+        assert "take-name-shortened" in codes(animation)
 
 
 def test_numbers_that_overflow_are_found_when_they_are_drawn() -> None:

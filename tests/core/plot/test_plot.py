@@ -152,7 +152,8 @@ def test_the_same_result_is_the_same_bytes():
     """Also in another process, whatever its hashes are."""
     program = (
         "import hashlib; from tests.core.plot.test_plot import *;"
-        "print(hashlib.sha256(render_svg(lay_out_picture(document())).encode() + render_png(lay_out_picture(document()))).hexdigest())"
+        "picture = lay_out_picture(document());"
+        "print(hashlib.sha256(render_svg(picture).encode() + render_png(picture)).hexdigest())"
     )
     said = [subprocess.run([sys.executable, "-c", program], capture_output=True, check=True).stdout for _ in range(2)]
     assert said[0] == said[1]
