@@ -66,13 +66,14 @@ dist: setup
 chaos: setup
 	$(BIN)/python -m benchmarks.chaos
 
-# TAKES, CMU: folders; JOIN: glTF files with several clips; PEERS: the Python of benchmarks/peers.txt. All may be left out.
+# TAKES, CMU, REAL: folders; JOIN: glTF files with several clips; PEERS: the Python of benchmarks/peers.txt. All may be left out.
 bench: setup
 	$(BIN)/python -m benchmarks.edges
 	$(BIN)/python -m benchmarks.repetitions
 	$(BIN)/python -m benchmarks.doubt
 	$(BIN)/python -m benchmarks.counting $(JOIN)
 	$(if $(CMU),$(BIN)/python -m benchmarks.aca_authors --cmu $(CMU))
+	$(if $(REAL),$(BIN)/python -m benchmarks.real $(REAL) --methods switching,joint-entropy,luo2014,spectral,aca,haca --invariance 2)
 	$(BIN)/python -m benchmarks.accuracy $(TAKES) $(if $(CMU),--cmu $(CMU)) $(if $(PEERS),--peers $(PEERS)) --figures --held-back 4 --seeds 3
 
 fuzz: setup

@@ -16,9 +16,9 @@ from benchmarks.numpy_twin import twin
 from caesura.api import open_animation
 from caesura.core.analysis import Analysis
 from caesura.core.methods.pose_features import pose_features
-from caesura.core.methods.switching.feature_weights import CHANGE_SECONDS
 from caesura.core.methods.switching.initial_segments import InitialSegments
 from caesura.core.methods.switching.switching_k_means import run_switching_k_means
+from caesura.core.methods.switching.views import CHANGE_SECONDS, SHORT
 from caesura.core.methods.switching.windowed_signal import DescriptorWindows
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse, cut
@@ -118,7 +118,8 @@ def changes(analysis: Analysis, motions: int, truth: Truth) -> str:
     """What windows do, and what it does that a change costs something: single poses and windows, without and with."""
     single, rate = pose_features(analysis.features), analysis.frame_rate
     centres = KMeans(motions, n_init=4, random_state=0).fit(single).cluster_centers_
-    signal = DescriptorWindows.of(analysis.features, analysis.frames, rate).signal()
+    values = tuple(feature.values for feature in analysis.features if feature.values.shape[1])
+    signal = DescriptorWindows.of(values, rate, SHORT).signal()
     assert signal is not None
     penalty = CHANGE_SECONDS / signal.seconds_per_step
     means = InitialSegments.of(signal, penalty, at_least=motions).grouped(motions)

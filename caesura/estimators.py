@@ -39,6 +39,7 @@ class MotionSegmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # sci
         *,
         method: str = "switching",
         frame_rate: float = 30.0,
+        expect: str = "auto",
         keyframe_window_seconds: float = 2.0,
         threshold: float = 0.1,
         seed: int = 0,
@@ -56,6 +57,7 @@ class MotionSegmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]  # sci
         self.motions = motions
         self.method = method
         self.frame_rate = frame_rate
+        self.expect = expect
         self.keyframe_window_seconds = keyframe_window_seconds
         self.threshold = threshold
         self.seed = seed

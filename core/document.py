@@ -4,7 +4,7 @@ New keys may come; these keep their meaning. Frames are 0-based, intervals half-
 own clock. Light: no NumPy, so that the web process can read, check and describe it.
 """
 
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -57,6 +57,14 @@ class Segment(_Value):
     discard: bool = False
 
 
+class Candidate(_Value):
+    """A frame at which a cut may be missing, so that the segment around it would be two motions, and how likely."""
+
+    frame: int
+    seconds: float
+    likelihood: float = Field(ge=0, le=1)
+
+
 class KeyFrame(_Value):
     """A local maximum of the energy curve, and the motion it is of."""
 
@@ -90,6 +98,9 @@ class SegmentationDocument(_Value):
     key_frames: tuple[KeyFrame, ...]
     energy: tuple[float | None, ...] = Field(description="nats; null where the windows of Eq. 3 do not fit")
     scores: tuple[Score, ...] = ()
+    kind: Literal["performance", "sheet"] = Field("performance", description="what the take was taken for")
+    transitions: tuple[Interval, ...] = Field((), description="frames on the way from one motion to the next")
+    candidates: tuple[Candidate, ...] = Field((), description="where a cut may be missing, the likeliest first")
     warnings: tuple[Notice, ...] = ()
 
 

@@ -15,7 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from caesura.core.errors import ParameterError
 from caesura.core.methods.table import METHODS
 
-ALGORITHM = "2"
+ALGORITHM = "3"
 
 Auto = Literal["auto"]
 Positive = Field(gt=0, allow_inf_nan=False)
@@ -67,6 +67,9 @@ class Parameters(BaseModel):
     window_seconds: float = _heavy(1.3, "seconds, length l of a window of Eq. 3 (paper: 1.3 to 1.7)", gt=0, le=600)
 
     method: MethodName = _light("switching", "how the take is cut")
+    expect: Literal["auto", "performance", "sheet"] = _light(
+        "auto", "what `switching` takes the take for: a performance, or a sheet of clips laid end to end"
+    )
     motions: Auto | Annotated[int, Field(ge=1, le=1000)] = _light("auto", "number of motion types K, or `auto`")
     keyframe_window_seconds: float = _light(
         2.0, "seconds, width ω in which a key-frame is the largest (paper: 2.0 to 2.3)", gt=0, le=600

@@ -110,6 +110,9 @@ def cut(analysis: Analysis, parameters: Parameters) -> Segmentation:
         key_frames=found.key_frames,
         confidence=np.ones(changes) if found.confidence is None else found.confidence,
         scores=found.scores,
+        kind=found.kind,
+        transitions=found.transitions,
+        candidates=found.candidates,
         notices=analysis.notices + found.notices,
         repeats=find_repetitions(analysis.once(RepetitionFinder.of), labels),
     )

@@ -1,12 +1,13 @@
 """The result of cutting a take: labels for every frame, key-frames, cuts, and how sure each is."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from jaxtyping import Float, Int
 
 from caesura.core.document import (
+    Candidate,
     Interval,
     KeyFrame,
     Notice,
@@ -23,6 +24,8 @@ class Cut:
     """What a method answers: a motion for every frame and key-frame.
 
     `labels` (frames,) are any integers; `confidence` (cuts,), 0 to 1, one for each change of label in order.
+    `transitions` are frames [start, end) between motions; `candidates` frames where a cut may be missing, and how
+    likely, 0 to 1.
     """
 
     labels: Int[np.ndarray, "frames"]
@@ -30,6 +33,9 @@ class Cut:
     confidence: Float[np.ndarray, "cuts"] | None = None
     scores: tuple[Score, ...] = ()
     notices: tuple[Notice, ...] = ()
+    kind: Literal["performance", "sheet"] = "performance"
+    transitions: tuple[tuple[int, int], ...] = ()
+    candidates: tuple[tuple[int, float], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -51,6 +57,9 @@ class Segmentation:
     scores: tuple[Score, ...] = ()
     notices: tuple[Notice, ...] = ()
     repeats: tuple[tuple[Interval, ...], ...] = ()
+    kind: Literal["performance", "sheet"] = "performance"
+    transitions: tuple[tuple[int, int], ...] = ()
+    candidates: tuple[tuple[int, float], ...] = ()
 
     @property
     def cuts(self) -> Int[np.ndarray, "cuts"]:
@@ -109,6 +118,12 @@ class Segmentation:
             ),
             energy=tuple(None if value != value else round(value, 6) for value in self.energy.tolist()),
             scores=self.scores,
+            kind=self.kind,
+            transitions=tuple(Interval(start=start, end=end) for start, end in self.transitions),
+            candidates=tuple(
+                Candidate(frame=frame, seconds=self._seconds(frame), likelihood=round(likely, 4))
+                for frame, likely in self.candidates
+            ),
             warnings=self.notices,
         )
 

@@ -1,7 +1,8 @@
 """The methods: from an analysis to cuts and motions. One folder a family, one table of all.
 
 table           the methods by name
-switching       the default: switching k-means on windowed features
+switching       the default: switching k-means in several views
+sheets          the default on a timeline of clips laid end to end
 joint_entropy   the paper's: key-frames grouped by k-means
 alignment       compared with: aligned cluster analysis in one level and two, spectral clustering
 luo2014         compared with: segments of least dissimilarity

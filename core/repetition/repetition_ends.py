@@ -1,4 +1,4 @@
-"""Beats: where each repetition ends."""
+"""Repetition ends: where each repetition ends."""
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -13,11 +13,14 @@ RESOLUTION = 32
 """Places in a repetition that are told apart, so that slow motions cost no more than fast ones."""
 
 
-def find_repetition_ends(passage: Float[np.ndarray, "frames d"], period: int) -> Int[np.ndarray, "bounds"]:
+def find_repetition_ends(
+    passage: Float[np.ndarray, "frames d"], period: int, prices: Float[np.ndarray, "frames"]
+) -> Int[np.ndarray, "bounds"]:
     """0, the frames at which repetitions end, and the number of frames.
 
     The ends that make the frames around each most like those around the next, and the repetitions even; exact, by
-    dynamic programming over all ends and lengths. A repetition begins where the passage does, wherever that is.
+    dynamic programming over all ends and lengths. `prices` are what it costs to end at a frame, for each frame of the
+    period.
     """
     stride = max(period // RESOLUTION, 1)
     seen = passage[::stride]
@@ -25,6 +28,7 @@ def find_repetition_ends(passage: Float[np.ndarray, "frames d"], period: int) ->
     lags = lags[lags < len(seen)]
     uneven = EVENNESS * np.log(lags * stride / period) ** 2
     cost = (_frame_differences(seen, lags, max(period // stride // 4, 1)) + uneven) * lags
+    cost[1:-1] += prices[::stride][1:, None] * (period / stride)
     came_from = np.full(len(seen) + 1, -1, np.int64)
     repetition.cheapest_repetition_ends(cost, lags, came_from)
     bounds = [len(seen)]

@@ -8,6 +8,7 @@ from jaxtyping import Int
 
 from caesura.core.analysis import Analysis, Features
 from caesura.core.document import Interval
+from caesura.core.repetition.neutral_pose import end_prices
 from caesura.core.repetition.period import find_period
 from caesura.core.repetition.repetition_ends import find_repetition_ends
 from caesura.core.repetition.segment_features import segment_features
@@ -51,4 +52,7 @@ def _repetition_bounds(features: tuple[Features, ...], start: int, end: int, fra
     fade = round(FADE_SECONDS * frame_rate)
     whole = segment_features(features, start, end, frame_rate)
     length = find_period(whole[fade : len(whole) - fade], frame_rate)
-    return [start, end] if length == 0 else (start + find_repetition_ends(whole, length)).tolist()
+    if length == 0:
+        return [start, end]
+    prices = end_prices(features, start, end, frame_rate, length)
+    return [start + int(bound) for bound in find_repetition_ends(whole, length, prices)]

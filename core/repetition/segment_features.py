@@ -1,4 +1,4 @@
-"""A passage: the poses and speeds of one segment, as few numbers as tell its repetitions."""
+"""Segment features: the poses and speeds of one segment, as few numbers as tell its repetitions."""
 
 import numpy as np
 from jaxtyping import Float

@@ -1,15 +1,16 @@
-"""The default method: switching k-means. A few motions, each a mean of windowed features, and a price on every change.
+"""The default method: switching k-means in several views, judged by a graph of like moments.
 
 method             the steps in order
+views              ways to look at one take: how long a window is, and how much each descriptor counts
+windowed_signal    what is compared: window statistics, some ten times a second
 window_statistics  mean, deviation and speed of the features in a window
-windowed_signal    what is compared: window statistics, each descriptor by its weight
-feature_weights    the take under one weighting of its descriptors, and under all
 initial_segments   the take cut where its features change
 switching_k_means  the alternation: assign by Viterbi, take means, until nothing changes
-separation         whether two motions are two
-motion_count       how many motions there are
-consensus          the weighting with which the others agree most
-short_segments     what is too short to be a motion
+short_segments     segments that only the blur of a window makes
+transitions        what is too short to be a motion: the way from one to the next
+neighbour_graph    moments, each linked to those most like it; the normalised cut of a labelling
+motion_count       the labelling of the least cut, and how many motions there are
 refinement         cuts moved to the frame
 cut_confidence     how sure each cut is
+missed_cuts        where a cut may be missing
 """

@@ -1,4 +1,4 @@
-"""Stretches: the take cut wherever its features change, before anybody knows which motion is which.
+"""Initial segments: the take cut wherever its features change, before anybody knows which motion is which.
 
 Motions are then groups of long stretches. This start is found the same way every time and was measured to be better
 than random ones: the lowest cost over many random starts often spends a motion on the blur between two others.
@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from caesura.core.kernels import switching
-from caesura.core.methods.switching.windowed_signal import WINDOW_SECONDS, WindowedSignal
+from caesura.core.methods.switching.windowed_signal import WindowedSignal
 
 LONGEST_SECONDS = 30.0
 """A longer stretch comes in pieces; it bounds the work on takes in which nothing happens."""
@@ -42,7 +42,7 @@ class InitialSegments:
                 break
             bounds = _segment_bounds(signal, total, penalty / 2 ** (halving + 1))
         lengths = np.diff(bounds)
-        long = int(np.count_nonzero(lengths >= signal.steps(WINDOW_SECONDS)))
+        long = int(np.count_nonzero(lengths >= signal.window))
         chosen = np.sort(np.argsort(-lengths, kind="stable")[: max(min(long, MOST), at_least)])
         means = (total[bounds[1:]] - total[bounds[:-1]])[chosen] / lengths[chosen, None]
         weights = lengths[chosen].astype(np.float64)

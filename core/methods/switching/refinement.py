@@ -1,11 +1,11 @@
 """Refinement: windows blur a cut by up to half their length; single frames say where it is, and how clearly."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Int
 
-from caesura.core.analysis import Features
 from caesura.core.methods.switching.window_statistics import compute_speeds
 
 REACH_SECONDS = 0.5
@@ -18,48 +18,90 @@ EXAMPLES = 600
 SPEED_WEIGHT = 0.5
 BESIDE_SECONDS = 0.3
 """Of frames on each side of a cut that tell how clear its place is."""
-DISAGREEMENT = 0.5
-"""How much of its clearness a cut loses that single frames put as far from where windows saw it as they may."""
+DIRECTIONS = 30
+"""Of poses and speeds together; the rest only costs time."""
 
 
 @dataclass(frozen=True)
-class RefinedCuts:
-    """Labels of the frames, and for every cut, 0 to 1, how clear its place is: what moving it would cost."""
+class Refinement:
+    """What single frames of a take are compared by: poses and speeds, in the directions in which they vary most."""
 
-    labels: Int[np.ndarray, "frames"]
-    clearness: Float[np.ndarray, "cuts"]
+    poses: Float[np.ndarray, "frames D"]
+    frame_rate: float
+
+    @classmethod
+    def of(cls, values: tuple[Float[np.ndarray, "frames _"], ...], frame_rate: float) -> "Refinement":
+        """Of descriptors."""
+        return cls(poses_and_speeds(values, frame_rate), frame_rate)
+
+    def moved(self, labels: Int[np.ndarray, "frames"]) -> Int[np.ndarray, "frames"]:
+        """Every cut moved within half a second to where the frames before it are most like the motion before it, and
+        those after it like the one after.
+
+        How unlike a frame is to a motion is its mean distance to the 5 nearest of that motion's frames (at most 600,
+        none near a cut). No segment is lost: a cut moves at most halfway to its neighbours.
+        """
+        cuts = np.flatnonzero(np.diff(labels)) + 1
+        if len(cuts) == 0 or self.poses.shape[1] == 0:
+            return labels
+        moved = [
+            first if len(before) == 0 else first + int(np.concatenate([[0.0], np.cumsum(before - after)]).argmin())
+            for first, before, after in self._beside(labels, cuts)
+        ]
+        lengths = np.diff(np.concatenate([[0], moved, [len(labels)]]))
+        return np.asarray(np.repeat(labels[np.concatenate([[0], cuts])], lengths))
+
+    def clearness(self, labels: Int[np.ndarray, "frames"]) -> Float[np.ndarray, "cuts"]:
+        """For every cut, 0 to 1: what moving it would cost, by the frames within 0.3 s of it."""
+        cuts = np.flatnonzero(np.diff(labels)) + 1
+        if self.poses.shape[1] == 0:
+            return np.ones(len(cuts))
+        beside = max(round(BESIDE_SECONDS * self.frame_rate), 1)
+        found = np.zeros(len(cuts))
+        for i, (first, before, after) in enumerate(self._beside(labels, cuts)):
+            at = int(cuts[i]) - first
+            left, right = slice(max(at - beside, 0), at), slice(at, at + beside)
+            if len(before):
+                found[i] = min(_clearness(before[left], after[left]), _clearness(after[right], before[right]))
+        return found
+
+    def _beside(
+        self, labels: Int[np.ndarray, "frames"], cuts: Int[np.ndarray, "cuts"]
+    ) -> Iterator[tuple[int, Float[np.ndarray, "some"], Float[np.ndarray, "some"]]]:
+        """For every cut the first frame to which it may move, and how unlike frames from there are to either motion.
+
+        No frames where it may not move: then the first is the cut.
+        """
+        examples = _examples(self.poses, labels, cuts, round(GUARD_SECONDS * self.frame_rate))
+        reach = max(round(REACH_SECONDS * self.frame_rate), 1)
+        bounds = np.concatenate([[0], cuts, [len(labels)]])
+        for i, cut in enumerate(cuts.tolist()):
+            first = max(cut - reach, (int(bounds[i]) + cut) // 2 + 1)
+            last = min(cut + reach, (cut + int(bounds[i + 2])) // 2)
+            if first >= last:
+                yield cut, _NONE, _NONE
+            else:
+                before = _distance_to_examples(self.poses[first:last], examples[int(labels[cut - 1])])
+                yield first, before, _distance_to_examples(self.poses[first:last], examples[int(labels[cut])])
 
 
-def refine_cuts(labels: Int[np.ndarray, "frames"], features: tuple[Features, ...], frame_rate: float) -> RefinedCuts:
-    """Every cut moved within half a second to where the frames before it are most like the motion before it, and those
-    after it like the one after.
-
-    How unlike a frame is to a motion is its mean distance to the 5 nearest of that motion's frames (at most 600, none
-    near a cut). No segment is lost: a cut moves at most halfway to its neighbours.
-    """
-    cuts = np.flatnonzero(np.diff(labels)) + 1
-    poses = poses_and_speeds(features, frame_rate)
-    if len(cuts) == 0 or poses.shape[1] == 0:
-        return RefinedCuts(labels, np.ones(len(cuts)))
-    examples = _examples(poses, labels, cuts, round(GUARD_SECONDS * frame_rate))
-    reach, beside = (max(round(seconds * frame_rate), 1) for seconds in (REACH_SECONDS, BESIDE_SECONDS))
-    moved, clearness = _move_cut(poses, labels, cuts, examples, reach, beside)
-    bounds = np.concatenate([[0], cuts])
-    lengths = np.diff(np.concatenate([[0], moved, [len(labels)]]))
-    return RefinedCuts(np.repeat(labels[bounds], lengths), clearness)
-
-
-def poses_and_speeds(features: tuple[Features, ...], frame_rate: float) -> Float[np.ndarray, "frames D"]:
-    """Every descriptor and its speed, side by side, each at unit mean square but speeds at half of it."""
+def poses_and_speeds(
+    values: tuple[Float[np.ndarray, "frames _"], ...], frame_rate: float
+) -> Float[np.ndarray, "frames D"]:
+    """Every descriptor and its speed, each at unit mean square but speeds at half of it, in leading directions."""
     parts = []
-    for feature in features:
-        values = feature.values.astype(np.float64)
-        for part, weight in ((values - values.mean(axis=0), 1.0), (compute_speeds(values, frame_rate), SPEED_WEIGHT)):
+    for value in values:
+        centred = value - value.mean(axis=0, dtype=np.float64)
+        for part, weight in ((centred, 1.0), (compute_speeds(centred, frame_rate), SPEED_WEIGHT)):
             square = float(np.einsum("fd,fd->", part, part)) / len(part)
             if square > 0:
-                parts.append((part * (weight / np.sqrt(square))).astype(np.float32))
-    frames = len(features[0].values) if features else 0
-    return np.concatenate(parts, axis=1) if parts else np.zeros((frames, 0), np.float32)
+                parts.append(part * (weight / np.sqrt(square)))
+    if not parts:
+        return np.zeros((len(values[0]) if values else 0, 0), np.float32)
+    together = np.concatenate(parts, axis=1)
+    together -= together.mean(axis=0)
+    _, directions = np.linalg.eigh(together.T @ together)
+    return np.asarray(together @ directions[:, ::-1][:, :DIRECTIONS], np.float32)
 
 
 def _examples(
@@ -79,33 +121,6 @@ def _examples(
     return found
 
 
-def _move_cut(
-    poses: Float[np.ndarray, "frames D"],
-    labels: Int[np.ndarray, "frames"],
-    cuts: Int[np.ndarray, "cuts"],
-    examples: dict[int, Float[np.ndarray, "examples D"]],
-    reach: int,
-    beside: int,
-) -> tuple[Int[np.ndarray, "cuts"], Float[np.ndarray, "cuts"]]:
-    """The best place of each cut, within reach and at most halfway to the cuts beside it; and how clear it is."""
-    bounds = np.concatenate([[0], cuts, [len(labels)]])
-    moved, clearness = cuts.copy(), np.zeros(len(cuts))
-    for i, cut in enumerate(cuts.tolist()):
-        first = max(cut - reach, (int(bounds[i]) + cut) // 2 + 1)
-        last = min(cut + reach, (cut + int(bounds[i + 2])) // 2)
-        if first >= last:
-            continue
-        before = _distance_to_examples(poses[first:last], examples[int(labels[cut - 1])])
-        after = _distance_to_examples(poses[first:last], examples[int(labels[cut])])
-        cost = np.concatenate([[0.0], np.cumsum(before - after)])
-        best = int(cost.argmin())
-        moved[i] = first + best
-        left, right = slice(max(best - beside, 0), best), slice(best, best + beside)
-        agreed = 1 - DISAGREEMENT * abs(int(moved[i]) - cut) / reach
-        clearness[i] = agreed * min(_clearness(before[left], after[left]), _clearness(after[right], before[right]))
-    return moved, clearness
-
-
 def _clearness(own: Float[np.ndarray, "some"], other: Float[np.ndarray, "some"]) -> float:
     """1 − (unlikeness to their own motion / to the other)² of the frames on one side of a cut, at least 0.
 
@@ -117,6 +132,7 @@ def _clearness(own: Float[np.ndarray, "some"], other: Float[np.ndarray, "some"])
 
 
 _TINY = float(np.finfo(np.float64).tiny)
+_NONE = np.zeros(0)
 
 
 def _distance_to_examples(

@@ -1,4 +1,4 @@
-"""Blur: while a window passes over a cut it holds two motions, and may look like a third."""
+"""Short segments: while a window passes over a cut it holds two motions, and may look like a third."""
 
 from dataclasses import replace
 
@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from caesura.core.methods.switching.switching_k_means import SwitchingClusters, squared_distances
-from caesura.core.methods.switching.windowed_signal import WINDOW_SECONDS, WindowedSignal
+from caesura.core.methods.switching.windowed_signal import WindowedSignal
 
 
 def remove_short_segments(signal: WindowedSignal, settled: SwitchingClusters) -> SwitchingClusters:
@@ -18,7 +18,7 @@ def remove_short_segments(signal: WindowedSignal, settled: SwitchingClusters) ->
     labels = settled.labels.copy()
     squares = np.einsum("sd,sd->s", signal.values, signal.values)
     cost = squared_distances(signal.values, squares, settled.means)
-    while (found := _shortest_segment(labels, signal.steps(WINDOW_SECONDS))) is not None:
+    while (found := _shortest_segment(labels, signal.window)) is not None:
         start, stop = found
         before, after = labels[start - 1], labels[stop]
         divide = start + _divide_between_neighbours(cost[start:stop, before], cost[start:stop, after])

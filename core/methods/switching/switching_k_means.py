@@ -1,4 +1,4 @@
-"""Settling: assign every step to a motion by Viterbi, take the means of the motions, until nothing changes."""
+"""Switching k-means: assign every step to a motion by Viterbi, take the means of the motions, until nothing changes."""
 
 from dataclasses import dataclass
 

@@ -5,29 +5,31 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from caesura.core.analysis import Features
 from caesura.core.methods.switching.window_statistics import compute_window_statistics
 
-WINDOW_SECONDS = 1.5
 STEPS_PER_SECOND = 10.0
 KEPT = 0.995
 """Share of the signal's energy whose directions are kept; the rest only costs time."""
+NOISE = 1e-3
 
 
 @dataclass(frozen=True)
 class WindowedSignal:
     """`values` (steps, D) at unit mean square, and `stride`: how many frames of the take a step stands for.
 
-    `size` and `tempo` (steps, D): where a step would go if its motion were performed twice as large, or twice as
-    fast. Repetitions of one motion differ along these, and are one motion all the same.
+    `window_seconds`: over how long each step looks.
     """
 
     values: Float[np.ndarray, "steps D"]
-    size: Float[np.ndarray, "steps D"]
-    tempo: Float[np.ndarray, "steps D"]
     stride: int
     frames: int
     seconds_per_step: float
+    window_seconds: float = 1.5
+
+    @property
+    def window(self) -> int:
+        """The window in steps."""
+        return self.steps(self.window_seconds)
 
     def steps(self, seconds: float) -> int:
         """So many seconds in steps, at least one."""
@@ -40,7 +42,7 @@ class WindowedSignal:
 
 @dataclass(frozen=True)
 class DescriptorWindows:
-    """Mean, deviation and RMS speed of every descriptor over a second and a half, at every step.
+    """Mean, deviation and RMS speed of every descriptor over a window, at every step.
 
     `statistics[descriptor][statistic]` (steps, components): computed once, however the descriptors are weighed.
     """
@@ -49,15 +51,29 @@ class DescriptorWindows:
     frames: int
     frame_rate: float
     stride: int
+    seconds: float
 
     @classmethod
-    def of(cls, features: tuple[Features, ...], frames: int, frame_rate: float) -> "DescriptorWindows":
-        """The windows of a take, O(frames)."""
+    def of(
+        cls,
+        features: tuple[Float[np.ndarray, "frames _"], ...],
+        frame_rate: float,
+        seconds: float,
+        evenness: float = 0.0,
+    ) -> "DescriptorWindows":
+        """The windows of a take, O(frames).
+
+        Every component is divided by the power `evenness` of its deviation: 0 leaves them as they are, at 1 all would
+        count alike. So small parts of the body count for more.
+        """
+        frames = len(features[0])
         stride = max(round(frame_rate / STEPS_PER_SECOND), 1)
         at = np.minimum(np.arange(0, frames, stride) + stride // 2, frames - 1)
-        half = max(round(WINDOW_SECONDS * frame_rate / 2), 1)
-        statistics = tuple(compute_window_statistics(feature.values, half, frame_rate, at) for feature in features)
-        return cls(statistics, frames, frame_rate, stride)
+        half = max(round(seconds * frame_rate / 2), 1)
+        statistics = tuple(
+            compute_window_statistics(_evened(values, evenness), half, frame_rate, at) for values in features
+        )
+        return cls(statistics, frames, frame_rate, stride, seconds)
 
     def signal(self, weights: tuple[float, ...] = ()) -> WindowedSignal | None:
         """The signal to cut; None where nothing changes.
@@ -65,28 +81,28 @@ class DescriptorWindows:
         The three statistics of a descriptor count alike, whatever their units, and so do the descriptors but for
         their `weights`.
         """
-        values, size, tempo = [], [], []
+        values = []
         for statistics, weight in zip(self.statistics, weights or (1.0,) * len(self.statistics), strict=True):
-            for number, statistic in enumerate(statistics):
+            for statistic in statistics:
                 centred = statistic - statistic.mean(axis=0)
                 spread = _root_mean_square(centred)
                 if spread * weight > 0:
-                    unit = weight / spread
-                    values.append(centred * unit)
-                    size.append(statistic * (unit * (number > 0)))  # deviation and speed grow with the motion, …
-                    tempo.append(statistic * (unit * (number > 1)))  # … and speed with its speed
+                    values.append(centred * (weight / spread))
         if not values:
             return None
         together = np.concatenate(values, axis=1)
         directions = _leading_components(together) / _root_mean_square(together)
-        return WindowedSignal(
-            together @ directions,
-            np.concatenate(size, axis=1) @ directions,
-            np.concatenate(tempo, axis=1) @ directions,
-            self.stride,
-            self.frames,
-            self.stride / self.frame_rate,
-        )
+        seconds_per_step = self.stride / self.frame_rate
+        return WindowedSignal(together @ directions, self.stride, self.frames, seconds_per_step, self.seconds)
+
+
+def _evened(values: Float[np.ndarray, "frames D"], evenness: float) -> Float[np.ndarray, "frames D"]:
+    """Components below a thousandth of the largest deviation are left out: they are noise."""
+    deviation = values.std(axis=0, dtype=np.float64)
+    if evenness == 0 or not deviation.any():
+        return values
+    share = deviation / deviation.max()
+    return np.asarray(values * np.where(share > NOISE, np.maximum(share, NOISE) ** -evenness, 0.0))
 
 
 def _root_mean_square(values: Float[np.ndarray, "rows D"]) -> float:

@@ -93,7 +93,7 @@ def test_every_cut_has_a_confidence():
 def test_a_weaker_change_is_less_sure():
     """Two motions that differ little are cut with less confidence than two that differ much."""
     values, truth = performance(2, 2, seed=5)
-    stranger = np.concatenate([values, values[truth == truth[-1]] + 0.4, values[truth == truth[0]] + 6])
+    stranger = np.concatenate([values, values[truth == truth[-1]] + 1, values[truth == truth[0]] + 3])
     found = cut(analysis_of(stranger), 4)
     assert len(found.confidence) == 3
     assert found.confidence[1] < found.confidence[2]
@@ -186,3 +186,57 @@ def test_walking_about_changes_nothing():
     one, other = (segment(animation(v, triangles, rest=rest)).labels for v in (performed, carried))
     np.testing.assert_array_equal(cut_frames(one), [pytest.approx(240, abs=4)])
     np.testing.assert_allclose(cut_frames(other), cut_frames(one), atol=1)
+
+
+def swinging(rows, seconds=9.0):
+    """Features of swings one after the other: (period, component, size) of each, about a pose that all share."""
+    time = np.arange(round(seconds * RATE)) / RATE
+    shown = np.zeros((len(rows) * len(time), 6))
+    for number, (period, component, size) in enumerate(rows):
+        here = slice(number * len(time), (number + 1) * len(time))
+        shown[here, component] = size * np.sin(2 * np.pi * time / period)
+        shown[here, (component + 1) % 6] = 0.6 * size * np.cos(2 * np.pi * time / period)
+    noise = np.random.default_rng(1).normal(0, 0.002, shown.shape)
+    return shown + noise, np.repeat([row[1] for row in rows], len(time))
+
+
+@pytest.mark.parametrize("motions", [3, "auto"])
+def test_a_slow_swing_is_one_motion(motions):
+    """A twist of three seconds to and fro is longer than the window, and is not cut into its phases."""
+    values, truth = swinging([(0.9, 0, 1.0), (3.1, 2, 1.0), (0.7, 4, 1.0), (3.3, 2, 1.0)])
+    found = cut(analysis_of(values), motions)
+    assert frame_accuracy(found.labels, truth) > 0.97
+    assert len(cut_frames(found.labels)) == 3
+
+
+@pytest.mark.parametrize("motions", [3, "auto"])
+def test_a_nod_is_a_motion(motions):
+    """What moves a twentieth as far is found where it is all that moves."""
+    values, truth = swinging([(0.9, 0, 1.0), (0.8, 2, 0.05), (0.7, 4, 1.0), (0.8, 2, 0.05)])
+    assert frame_accuracy(cut(analysis_of(values), motions).labels, truth) > 0.97
+
+
+def test_a_second_of_rest_at_the_ends_changes_nothing():
+    """Frames in which nothing moves are left to the motions beside them."""
+    values, _ = performance(4, 9, seed=17)
+    rested = np.pad(values, ((30, 30), (0, 0)), "edge")
+    plain, longer = (cut_frames(cut(analysis_of(v), "auto").labels) for v in (values, rested))
+    np.testing.assert_allclose(longer - 30, plain, atol=3)
+
+
+def test_noise_in_a_descriptor_that_says_nothing_changes_nothing():
+    """The strain of rigid parts is the noise of their vertices."""
+    values, truth = performance(4, 9, seed=21)
+    noise = np.random.default_rng(2).normal(0, 1e-4, values.shape)
+    assert frame_accuracy(cut(analysis_of(noise, values), 4).labels, truth) > 0.97
+
+
+def test_other_cuts_of_the_same_analysis_do_not_matter():
+    """What was asked before does not change an answer; missed cuts are told with their likelihood."""
+    values, _ = performance(4, 9, seed=23)
+    fresh, used = analysis_of(values), analysis_of(values)
+    cut(used, "auto")
+    one, other = cut(fresh, 4), cut(used, 4)
+    assert one.labels.tobytes() == other.labels.tobytes()
+    assert one.candidates == other.candidates
+    assert all(0 < likely <= 1 for _, likely in one.candidates)

@@ -78,7 +78,7 @@ def test_unlikeness_is_that_of_its_definition():
 
 def test_beats_of_a_period_that_cannot_fit_are_the_passage():
     """A passage shorter than the fastest repetition."""
-    assert find_repetition_ends(np.random.default_rng(0).normal(size=(5, 2)), 30).tolist() == [0, 5]
+    assert find_repetition_ends(np.random.default_rng(0).normal(size=(5, 2)), 30, np.zeros(5)).tolist() == [0, 5]
     assert find_period(np.zeros((0, 3)), RATE) == 0
 
 

@@ -4,18 +4,15 @@ import numpy as np
 import pytest
 
 from caesura.core.methods.switching.cut_confidence import cut_confidence
-from caesura.core.methods.switching.switching_k_means import SwitchingClusters
 from caesura.core.methods.switching.windowed_signal import WindowedSignal
 
 
 def sure(centres, lengths):
     """The certainty of the cuts of a take that stands at one centre after the other, a step a tenth of a second."""
     values = np.repeat(np.array(centres, float)[:, None], lengths, axis=0)
-    found = WindowedSignal(values, values * 0, values * 0, 3, 3 * len(values), 0.1)
-    means, labels = np.unique(centres, return_inverse=True)
-    return cut_confidence(
-        found, SwitchingClusters(np.repeat(labels, lengths), means[:, None].astype(float), 0.0), penalty=10 / 3
-    )
+    found = WindowedSignal(values, 3, 3 * len(values), 0.1)
+    labels = np.unique(centres, return_inverse=True)[1]
+    return cut_confidence(found, np.repeat(labels, 3 * np.array(lengths)), penalty=10 / 3)
 
 
 def test_a_smaller_change_is_less_sure():
@@ -36,6 +33,5 @@ def test_a_cut_beside_a_short_segment_is_less_sure(short):
 def test_a_cut_that_gains_nothing_is_not_sure_at_all():
     """Both sides are at the same place."""
     values = np.zeros((80, 1))
-    found = WindowedSignal(values, values, values, 3, 240, 0.1)
-    settled = SwitchingClusters(np.repeat([0, 1], 40), np.zeros((2, 1)), 0.0)
-    assert cut_confidence(found, settled, penalty=10 / 3)[0] == 0
+    found = WindowedSignal(values, 3, 240, 0.1)
+    assert cut_confidence(found, np.repeat([0, 1], 120), penalty=10 / 3)[0] == 0

@@ -12,7 +12,7 @@ MEANS = np.array([[0.0], [2.0], [1.0]])
 
 def signal(values):
     rows = np.array(values, float)[:, None]
-    return WindowedSignal(rows, rows * 0, rows * 0, 3, 3 * len(rows), 0.1)
+    return WindowedSignal(rows, 3, 3 * len(rows), 0.1)
 
 
 @pytest.mark.parametrize("length", [1, 8, 14])
