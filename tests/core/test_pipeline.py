@@ -89,8 +89,8 @@ def test_strain_computed_twice_gives_the_same_analysis(performance, analysed):
 @pytest.mark.parametrize("size", [8, 24, 1000])
 def test_the_size_of_blocks_changes_no_energy(performance, analysed, size, monkeypatch):
     """Nor where the peaks are; features agree to rounding."""
-    for module in ("survey", "basis", "peak_strain"):
-        monkeypatch.setattr(f"core.{module}.frames_per_block", lambda _: size)
+    for module in ("vertex_pass", "features", "strain_at_peaks"):
+        monkeypatch.setattr(f"caesura.core.block_pass.{module}.frames_per_block", lambda _: size)
     other = analyse(performance.animation, PAPER)
     np.testing.assert_array_equal(other.energy, analysed.energy)
     np.testing.assert_array_equal(other.peak_strain, analysed.peak_strain)
@@ -269,7 +269,7 @@ def test_the_rest_shape_can_be_chosen(performance):
 
 def test_many_peaks_are_kept_as_patch_means(performance, analysed, monkeypatch):
     """Above the budget; key-frames are told apart all the same."""
-    monkeypatch.setattr("caesura.core.pipeline.peak_strain", small_budget)
+    monkeypatch.setattr("caesura.core.pipeline.measure_strain_at_peaks", small_budget)
     found = analyse(performance.animation, PAPER)
     assert found.peak_strain.shape[1] <= 256 < analysed.peak_strain.shape[1]
     assert 0 <= found.peak_strain.min() <= found.peak_strain.max() <= 1

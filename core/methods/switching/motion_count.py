@@ -1,4 +1,4 @@
-"""The number of motions: of what the views found, the labelling of the least normalised cut; and how many motions there are."""
+"""The number of motions: of what the views found, the labelling of the least normalised cut, and how many it has."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
