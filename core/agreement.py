@@ -34,12 +34,6 @@ def frame_accuracy(labels: Labels, truth: Labels, lengths: Lengths | None = None
     return float(counts[_matching(counts)].sum() / counts.sum())
 
 
-def rand_index(labels: Labels, truth: Labels) -> float:
-    """Share of the pairs of frames that are together in both or apart in both, 0 to 1 (Rand 1971)."""
-    neither, found, true, both = _count_pairs(labels, truth)
-    return (both + neither) / (both + neither + found + true) if len(truth) > 1 else 1.0
-
-
 def adjusted_rand_index(labels: Labels, truth: Labels, lengths: Lengths | None = None) -> float:
     """The Rand index corrected for chance: 1 where both agree, 0 expected of chance, down to −0.5 (Hubert 1985).
 

@@ -12,7 +12,6 @@ import zlib
 from array import array
 from sys import byteorder
 
-from redis import WatchError
 from redis.client import Pipeline
 
 from caesura.core.document import Segment, SegmentationDocument
@@ -24,18 +23,14 @@ def store_alternative(records: Records, identifier: str, document: SegmentationD
     """Keep one beside a result; False, and nothing kept, where the result is not there any more."""
     shown = document.model_copy(update={"id": None, "energy": ()}).model_dump_json()
     asked = str(document.parameters["motions"])
-    with records.redis.pipeline() as pipe:
-        while True:
-            pipe.watch(redis_keys.segmentation_key(identifier))
-            if not pipe.exists(redis_keys.segmentation_key(identifier)):
-                return False
-            pipe.multi()
+
+    def keep(pipe: Pipeline) -> None:
+        exists = pipe.exists(redis_keys.segmentation_key(identifier))
+        pipe.multi()
+        if exists:
             pipe.hset(redis_keys.alternatives_key(identifier), asked, zlib.compress(shown.encode()))
-            try:
-                pipe.execute()
-            except WatchError:
-                continue
-            return True
+
+    return bool(records.redis.transaction(keep, redis_keys.segmentation_key(identifier)))
 
 
 def restore_alternative(records: Records, wanted: SegmentationRecord, beside: str) -> SegmentationRecord | None:

@@ -1,15 +1,16 @@
 """What is measured on a block of frames, while it is in the cache."""
 
-from dataclasses import dataclass
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, field
+from threading import Lock
 
 import numpy as np
-from jaxtyping import Float32, UInt16
+from jaxtyping import Float32, Int, UInt16
 
 from caesura.core.animation import Animation
 from caesura.core.block_pass.features import FeatureBasis
-from caesura.core.block_pass.histograms import ThreadHistograms
 from caesura.core.block_pass.measured_body import MeasuredBody
-from caesura.core.block_pass.quantisation import Quantisation
+from caesura.core.block_pass.quantisation import CODES, Quantisation
 from caesura.core.frames.blocks import Block
 from caesura.core.frames.sampled_frames import read_vertices
 
@@ -26,7 +27,7 @@ class BlockStatistics:
 
 @dataclass(frozen=True)
 class BlockPass:
-    """Measures a block of frames. Safe from several threads. Codes below `floor` are not told apart in histograms."""
+    """Measures a block of frames. Safe from several threads. Codes below `floor` are not told apart in `histogram`."""
 
     animation: Animation
     body: MeasuredBody
@@ -35,13 +36,14 @@ class BlockPass:
     floor: int
     noise: Float32[np.ndarray, "columns"]
     projections: FeatureBasis | None
-    kept: UInt16[np.ndarray, "codes"]
-    histograms: ThreadHistograms
+    kept: UInt16[np.ndarray, "kept"]
+    histogram: Int[np.ndarray, "codes"]
+    lock: AbstractContextManager[bool] = field(default_factory=Lock)
 
     def measure(self, block: Block) -> BlockStatistics:
         """Draw the block, and measure it tile by tile."""
         vertices = read_vertices(self.animation, block)
-        means, histogram = self.body.patches.empty(len(vertices)), self.histograms.take()
+        means, histogram = self.body.patches.empty(len(vertices)), np.zeros(CODES, np.int64)
         codes = self._kept(block)
         largest, above = 0.0, 0
         for columns, tile in self.body.surface.tiles(vertices):
@@ -50,7 +52,8 @@ class BlockPass:
             largest, above = max(largest, most), above + more
             if codes is not None:
                 self.coding.write(tile, codes, columns.start)
-        self.histograms.give(histogram)
+        with self.lock:
+            np.add(self.histogram, histogram, out=self.histogram)
         apart = self.body.pairs.measure(vertices)
         described = (means.T, apart)
         if self.projections is not None:

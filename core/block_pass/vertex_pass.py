@@ -9,9 +9,8 @@ from jaxtyping import Int, UInt8
 from caesura.core.animation import Animation
 from caesura.core.block_pass.block_statistics import BlockPass, BlockStatistics
 from caesura.core.block_pass.features import learn_feature_basis
-from caesura.core.block_pass.histograms import ThreadHistograms
 from caesura.core.block_pass.measured_body import MeasuredBody
-from caesura.core.block_pass.quantisation import Quantisation, find_normalising_strain
+from caesura.core.block_pass.quantisation import CODES, Quantisation, find_normalising_strain
 from caesura.core.block_pass.range_estimate import RangeEstimate
 from caesura.core.descriptors.strain import ROUNDING
 from caesura.core.frames.blocks import Block, frames_per_block, map_blocks, split_into_blocks, threads_at_once
@@ -102,7 +101,7 @@ def run_block_pass(
         body.surface.noise(glance.reach),
         learn_feature_basis(animation, body, threads, progress),
         np.empty(min(animation.frames * body.surface.columns, memory_bytes // 2), np.uint16),
-        ThreadHistograms(),
+        np.zeros(CODES, np.int64),
     )
     blocks = split_into_blocks(animation.frames, frames_per_block(animation.vertex_count))
     together = threads_at_once(threads, animation.vertex_count, body.surface.columns)
@@ -112,7 +111,7 @@ def run_block_pass(
         better = _better_quantisation(take, parameters)
         if better is None:
             return take
-        surveyor = replace(surveyor, coding=better, floor=0, histograms=ThreadHistograms())
+        surveyor = replace(surveyor, coding=better, floor=0, histogram=np.zeros(CODES, np.int64))
 
 
 def _better_quantisation(take: PassResult, parameters: Parameters) -> Quantisation | None:
@@ -135,7 +134,7 @@ def _combine(surveyor: BlockPass, blocks: list[Block], threads: int, measured: I
         surveyor,
         blocks,
         threads,
-        surveyor.histograms.total(),
+        surveyor.histogram,
         max(page.largest for page in pages),
         sum(page.above_noise for page in pages),
         max(page.widest for page in pages),

@@ -1,4 +1,4 @@
-"""The methods: from an analysis to cuts and motions. One folder a family, one table of all.
+"""The methods: from an analysis to cuts and motions. One file or folder a family, one table of all.
 
 table           the methods by name
 switching       the default: switching k-means in several views

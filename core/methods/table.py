@@ -46,7 +46,7 @@ METHODS = {
         ),
         Method(
             "luo2014",
-            "luo2014.method:luo2014",
+            "luo2014:luo2014",
             "Compared with: segments in which frames differ least on average, then grouped. Up to 10,000 frames.",
             needs_motions=True,
         ),

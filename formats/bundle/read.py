@@ -10,9 +10,7 @@ from caesura.core.errors import InvalidModel
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
 from caesura.formats.bundle.members import ZipMembers, errors_as_zip
-from caesura.formats.bundle.obj import read_obj
-from caesura.formats.bundle.ply import read_ply
-from caesura.formats.bundle.polygon_mesh import PolygonMesh
+from caesura.formats.bundle.polygon_mesh import Surface, read_obj, read_ply
 from caesura.formats.notices import Notices
 from caesura.formats.npz.read import inflate_member, verify_checksum, vertex_sequence_from_arrays
 from caesura.formats.vertex_sequence import require_finite
@@ -40,44 +38,46 @@ def read_shapes(
     """
     names = files.shapes()
     limits.check("max_frames", len(names), "Send fewer files")
-    first = _shape(files, names[0], data, limits)
+    first, faces = _shape(files, names[0], data, limits)
     if len(names) < 2:
         raise InvalidModel("no-motion", "The zip has one shape; a motion needs two, numbered in their names.")
     notices = Notices()
-    triangles = _triangles(first, names[0], notices)
-    size = len(names) * first.vertices.size * 4
+    triangles = _without_repeated(faces, notices)
+    size = len(names) * first.size * 4
     limits.check("max_inflated_bytes", size, "Send fewer files")
-    stored = np.frombuffer(scratch(size), np.float32).reshape(len(names), len(first.vertices), 3)
+    stored = np.frombuffer(scratch(size), np.float32).reshape(len(names), len(first), 3)
     for frame, name in enumerate(names):
-        shape = _shape(files, name, data, limits) if frame else first
-        if not shape.has_polygons_of(first):
+        vertices, found = _shape(files, name, data, limits) if frame else (first, faces)
+        if vertices.shape != first.shape or not np.array_equal(found, faces):
             raise InvalidModel(
                 "varying-topology",
-                f"{name[:80]!r} has {len(shape.vertices)} vertices and {len(shape.sizes)} faces that are not those of "
+                f"{name[:80]!r} has {len(vertices)} vertices and {len(found)} triangles that are not those of "
                 f"{names[0][:80]!r}. All frames must have the same.",
                 frame=frame,
             )
-        stored[frame] = shape.vertices
+        stored[frame] = vertices
         if not require_finite(stored[frame]):
             raise InvalidModel("non-finite-data", f"{name[:80]!r} has a vertex that is not at a finite place.")
     return vertex_sequence_from_arrays(stored, triangles, None, None, parameters, limits, notices)
 
 
-def _shape(files: ZipMembers, name: str, data: memoryview, limits: Limits) -> PolygonMesh:
+def _shape(files: ZipMembers, name: str, data: memoryview, limits: Limits) -> Surface:
     raw = bytes(read_member(files, name, data, lambda size: memoryview(bytearray(size))))
     read = read_obj if name.lower().endswith(".obj") else read_ply
     try:
-        return read(raw, limits)
+        vertices, triangles = read(raw, limits)
     except InvalidModel as wrong:
         raise InvalidModel(wrong.code, f"{name[:80]!r} {wrong.detail}. Export it again.") from None
-
-
-def _triangles(shape: PolygonMesh, name: str, notices: Notices) -> Int[np.ndarray, "T 3"]:
-    if not len(shape.vertices) or not (shape.sizes > 2).any():
+    if not len(vertices) or not len(triangles):
         raise InvalidModel("no-mesh", f"{name[:80]!r} has no triangles in space.")
-    if shape.corners.min() < 0 or shape.corners.max() >= len(shape.vertices):
+    if triangles.min() < 0 or triangles.max() >= len(vertices):
         raise InvalidModel("index-out-of-range", f"{name[:80]!r} names vertices that it does not have.")
-    triangles = shape.triangles()
-    if repeated := int(np.maximum(shape.sizes - 2, 0).sum()) - len(triangles):
+    return vertices, triangles
+
+
+def _without_repeated(triangles: Int[np.ndarray, "T 3"], notices: Notices) -> Int[np.ndarray, "U 3"]:
+    """Of triangles with the same three corners, the first."""
+    first = np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1]
+    if repeated := len(triangles) - len(first):
         notices.add("triangles-repeated", f"{repeated} triangles have the same corners as others, and count once.")
-    return triangles
+    return np.asarray(triangles[np.sort(first)])

@@ -9,7 +9,6 @@ import numpy as np
 from jaxtyping import Float, Shaped
 
 from caesura.core.limits import Limits
-from caesura.formats.clips.animation_only import strip_meshes
 from caesura.formats.clips.binary_chunk import BinaryChunk, without_unused
 from caesura.formats.clips.buffer_references import exclusive_accessors, parts
 from caesura.formats.clips.self_contained_gltf import SelfContainedGltf
@@ -20,6 +19,9 @@ from caesura.formats.read import find_main_part
 
 UNUSED_ACCESSOR = {"componentType": 5126, "count": 1, "type": "SCALAR"}
 """What stands in the place of an accessor that is gone, so that the numbers of the others stay."""
+KEPT = ("asset", "scene", "scenes", "nodes", "animations", "extras")
+PLACEMENT = ("name", "children", "translation", "rotation", "scale", "matrix", "extras")
+"""What is left of a file and of its nodes where engines take animations for a model that they have already."""
 
 
 class AnimationReplacement:
@@ -144,3 +146,13 @@ def _text(root: dict[str, Any]) -> bytes:
         return json.dumps(root, separators=(",", ":"), allow_nan=False, ensure_ascii=False).encode()
     except UnicodeEncodeError:
         return json.dumps(root, separators=(",", ":"), allow_nan=False).encode()
+
+
+def strip_meshes(file: SelfContainedGltf) -> None:
+    """Leave nodes, their places and their names; no meshes, skins, materials, or bytes."""
+    file.json = {name: file.json[name] for name in KEPT if name in file.json}
+    file.json["nodes"] = [{k: node[k] for k in PLACEMENT if k in node} for node in file.json.get("nodes", [])]
+    for scene in file.json.get("scenes", []):
+        scene.pop("extensions", None)
+    file.json["buffers"] = [{}]
+    file.pieces, file.length = [], 0

@@ -4,12 +4,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from caesura.formats.clips.animation_only import targets_node
 from caesura.formats.clips.animation_replacement import AnimationReplacement
 from caesura.formats.clips.channel_keys import ChannelKeys, key_layout, read_keys
 from caesura.formats.gltf.geometry.accessors import AccessorLayout
 from caesura.formats.gltf.json_object import JsonObject
 
+NODE_PATHS = frozenset({"translation", "rotation", "scale"})
+"""What has a meaning without meshes."""
 EDITED_MEMBERS = ("input", "output", "interpolation")
 
 
@@ -30,7 +31,7 @@ def take_channels(file: AnimationReplacement, take: int, *, nodes_only: bool = F
     for entry in animation.entries("channels"):
         target = entry.entry("target") or JsonObject({}, entry.pointer)
         path = target.text("path")
-        if nodes_only and not targets_node(path):
+        if nodes_only and path not in NODE_PATHS:
             continue
         sampler = samplers[entry.index("sampler", len(samplers), "samplers", "invalid-animation")]
         keys = read_keys(file.accessors, sampler, path == "rotation" or _is_rotation(target))

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from caesura.core.limits import Limits
-from caesura.formats.bundle.obj import read_obj
+from caesura.formats.bundle.polygon_mesh import read_obj
 from caesura.formats.bvh.gltf_conversion import convert_bvh_to_glb
 from caesura.worker.process.warm_up import example_gltf
 from tests.formats import test_hostile_gltf as hostile

@@ -8,5 +8,4 @@ worker_registry  who works
 warm_up          everything compiled and loaded before the first fork
 job_quota        what one job may use of the machine
 thread_count     how many threads a process may keep busy
-priority         which processes go first
 """

@@ -2,10 +2,11 @@
 
 import time
 
-from redis import WatchError
+from redis.client import Pipeline
 
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.records import content_ids, redis_keys
+from caesura.worker.records.connection import transact
 from caesura.worker.records.schema import ExportRecord
 
 SWEEP_SECONDS = 3600
@@ -17,26 +18,25 @@ DELETED = {"kind": "request", "code": "not-found", "detail": "The segmentation w
 def submit_export(jobs: Jobs, identifier: str, form: str) -> ExportRecord:
     """Have a file made of a result that is done, unless it is there or being made; see `ResultFiles.one`."""
     key = redis_keys.export_key(identifier, form)
-    with jobs.redis.pipeline() as pipe:
-        while True:
-            pipe.watch(key, redis_keys.segmentation_key(identifier))
-            kept = jobs.records.exports.one(identifier, form)
-            if kept is not None and _holds(jobs, kept):
-                return kept
-            if not pipe.exists(redis_keys.segmentation_key(identifier)):
-                return ExportRecord(problem=DELETED)
-            jobs.queues.check_room()
-            pending = ExportRecord(token=content_ids.token())
-            pipe.multi()
-            pipe.set(key, pending.model_dump_json(), ex=2 * jobs.job_seconds)
-            pipe.sadd(redis_keys.exports_key(identifier), form)
-            jobs.records.attempts.renew(pending.token, pipe)
-            jobs.queues.put("cut", "export", [identifier, form], pending.token, jobs.job_seconds, pipe)
-            try:
-                pipe.execute()
-            except WatchError:  # somebody else asked for it in this moment, or deleted it
-                continue
-            return pending
+
+    def submit(pipe: Pipeline) -> ExportRecord:
+        kept = jobs.records.exports.one(identifier, form)
+        exists = pipe.exists(redis_keys.segmentation_key(identifier))
+        pipe.multi()
+        if kept is not None and _holds(jobs, kept):
+            return kept
+        if not exists:
+            return ExportRecord(problem=DELETED)
+        jobs.queues.check_room()
+        pending = ExportRecord(token=content_ids.token())
+        pipe.set(key, pending.model_dump_json(), ex=2 * jobs.job_seconds)
+        pipe.sadd(redis_keys.exports_key(identifier), form)
+        jobs.records.attempts.renew(pending.token, pipe)
+        jobs.queues.put("cut", "export", [identifier, form], pending.token, jobs.job_seconds, pipe)
+        return pending
+
+    watched = (key, redis_keys.segmentation_key(identifier))  # others may ask for it in this moment, or delete it
+    return transact(jobs.redis, submit, *watched)
 
 
 def _holds(jobs: Jobs, export: ExportRecord) -> bool:

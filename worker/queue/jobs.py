@@ -22,13 +22,14 @@ from redis import Redis
 from redis.client import Pipeline
 
 from caesura.worker.queue.queues import Queues
-from caesura.worker.queue.retry_delays import retry_delay_seconds
 from caesura.worker.records import Records, content_ids, counters, redis_keys
 from caesura.worker.records.connection import connect
 from caesura.worker.records.schema import Queue, SegmentationRecord
 from caesura.worker.settings import WorkerSettings
 
 log = logging.getLogger(__name__)
+
+FIRST_PAUSE_SECONDS, PAUSE_GROWTH, LONGEST_PAUSE_SECONDS = 2.0, 4, 60.0
 
 
 class Jobs:
@@ -152,3 +153,8 @@ class Jobs:
 
     def _kept(self, record: SegmentationRecord) -> SegmentationRecord:
         return self.records.segmentations.one(record.id) or self.submit(record)
+
+
+def retry_delay_seconds(attempt: int) -> float:
+    """How long to wait after attempt 1, 2, …: 2 s, 8 s, 32 s, at most a minute."""
+    return float(min(FIRST_PAUSE_SECONDS * PAUSE_GROWTH ** (attempt - 1), LONGEST_PAUSE_SECONDS))

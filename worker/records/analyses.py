@@ -1,6 +1,7 @@
 """Records of what was computed from the vertices, by upload and digest of the heavy parameters (`ids.heavy_digest`)."""
 
 import redis
+from redis.client import Pipeline
 
 from caesura.worker.records import redis_keys
 from caesura.worker.records.connection import names
@@ -29,19 +30,17 @@ class Analyses:
         None where the animation was deleted meanwhile: then nothing is kept.
         """
         key = redis_keys.analysis_key(animation, digest)
-        with self._redis.pipeline() as pipe:
-            while True:
-                pipe.watch(redis_keys.animation_key(animation))
-                if not pipe.exists(redis_keys.animation_key(animation)):
-                    return None
-                pipe.multi()
+
+        def keep(pipe: Pipeline) -> None:
+            exists = pipe.exists(redis_keys.animation_key(animation))
+            pipe.multi()
+            if exists:
                 pipe.set(key, record.model_dump_json(), nx=True)
                 pipe.sadd(redis_keys.analyses_key(animation), digest)
                 pipe.get(key)
-                try:
-                    return AnalysisRecord.model_validate_json(pipe.execute()[-1])
-                except redis.WatchError:
-                    continue
+
+        answers = self._redis.transaction(keep, redis_keys.animation_key(animation))
+        return AnalysisRecord.read(answers[-1]) if answers else None
 
     def delete(self, animation: str, digest: str) -> None:
         """Forget an analysis; its blobs are the caller's to delete."""

@@ -3,9 +3,10 @@
 import time
 
 import redis
+from redis.client import Pipeline
 
 from caesura.worker.records import redis_keys
-from caesura.worker.records.connection import names
+from caesura.worker.records.connection import names, transact
 from caesura.worker.records.schema import TAKES, AnimationRecord, TakeSummary
 
 
@@ -29,22 +30,19 @@ class Animations:
         Where it was there before, with its files, the stored record is answered; the caller then deletes its own.
         """
         key = redis_keys.animation_key(record.id)
-        with self._redis.pipeline() as pipe:
-            while True:
-                pipe.watch(key)
-                kept = AnimationRecord.read(pipe.get(key))
-                if kept is not None and kept.parts:
-                    return kept, False
-                pipe.multi()
-                pipe.set(key, record.model_dump_json())
-                pipe.set(redis_keys.takes_key(record.id), TAKES.dump_json(takes))
-                pipe.zadd(redis_keys.animations_key(record.owner), {record.id: record.created})
-                pipe.zadd(redis_keys.LAST_USED_KEY, {record.id: record.created})
-                try:
-                    pipe.execute()
-                except redis.WatchError:
-                    continue
-                return record, True
+
+        def keep(pipe: Pipeline) -> tuple[AnimationRecord, bool]:
+            kept = AnimationRecord.read(pipe.get(key))
+            pipe.multi()
+            if kept is not None and kept.parts:
+                return kept, False
+            pipe.set(key, record.model_dump_json())
+            pipe.set(redis_keys.takes_key(record.id), TAKES.dump_json(takes))
+            pipe.zadd(redis_keys.animations_key(record.owner), {record.id: record.created})
+            pipe.zadd(redis_keys.LAST_USED_KEY, {record.id: record.created})
+            return record, True
+
+        return transact(self._redis, keep, key)
 
     def strip(self, record: AnimationRecord) -> None:
         """Forget where its files were: they are gone."""

@@ -2,11 +2,14 @@
 
 import math
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, TypeVar, cast
 
 import redis
+from redis.client import Pipeline
+
+Answer = TypeVar("Answer")
 
 LOOK_SECONDS = 0.2
 
@@ -14,6 +17,11 @@ LOOK_SECONDS = 0.2
 def connect(url: str) -> redis.Redis:
     """A client for short calls; it connects at first use."""
     return redis.Redis.from_url(url, health_check_interval=30)
+
+
+def transact(client: redis.Redis, write: Callable[[Pipeline], Answer], *watched: str) -> Answer:
+    """Call `write`, whose changes are one MULTI; again where another process changes a watched key meanwhile."""
+    return cast("Answer", client.transaction(cast("Any", write), *watched, value_from_callable=True))
 
 
 def names(values: Iterable[Any]) -> list[str]:

@@ -1,6 +1,7 @@
 """Records of files made of a result, by segmentation and form."""
 
 import redis
+from redis.client import Pipeline
 
 from caesura.worker.records import redis_keys
 from caesura.worker.records.connection import names
@@ -24,20 +25,16 @@ class ResultFiles:
     def write(self, segmentation: str, form: str, record: ExportRecord) -> bool:
         """Keep where the file is, or why there is none; False where the segmentation was deleted meanwhile."""
         key = redis_keys.segmentation_key(segmentation)
-        with self._redis.pipeline() as pipe:
-            while True:
-                pipe.watch(key)
-                if not pipe.exists(key):
-                    return False
-                pipe.multi()
+
+        def keep(pipe: Pipeline) -> None:
+            exists = pipe.exists(key)
+            pipe.multi()
+            if exists:
                 pipe.set(redis_keys.export_key(segmentation, form), record.model_dump_json())
                 pipe.sadd(redis_keys.exports_key(segmentation), form)
                 pipe.publish(redis_keys.channel(segmentation), b"export")
-                try:
-                    pipe.execute()
-                except redis.WatchError:
-                    continue
-                return True
+
+        return bool(self._redis.transaction(keep, key))
 
     def delete(self, segmentation: str, form: str) -> None:
         """Forget a file, or why there is none; its blob is the caller's to delete before."""

@@ -8,7 +8,7 @@ from redis.client import Pipeline
 
 from caesura.core.errors import CaesuraError
 from caesura.worker.records import counters, redis_keys
-from caesura.worker.records.connection import names
+from caesura.worker.records.connection import names, transact
 from caesura.worker.records.schema import SegmentationRecord
 
 Change = Callable[[SegmentationRecord], SegmentationRecord | None]
@@ -59,28 +59,25 @@ class Segmentations:
         Raises `AnimationDeleted` where it would be `new`, and what it is of has gone meanwhile.
         """
         key = redis_keys.segmentation_key(identifier)
-        with self._redis.pipeline() as pipe:
-            while True:
-                pipe.watch(key)
-                stored = SegmentationRecord.read(pipe.get(key))
-                if stored is None and new is not None:
-                    _watch_animation(pipe, new.animation)
-                before = stored or new
-                after = None if before is None else change(before)
-                if after is None:
-                    pipe.unwatch()
-                    return None
-                after = after.with_(updated=time.time())
-                pipe.multi()
-                _write(pipe, after)
-                counters.count_change(pipe, before, after)
-                if also is not None:
-                    also(pipe, after)
-                try:
-                    pipe.execute()
-                except redis.WatchError:
-                    continue
-                return after
+
+        def write(pipe: Pipeline) -> SegmentationRecord | None:
+            stored = SegmentationRecord.read(pipe.get(key))
+            if stored is None and new is not None:
+                _watch_animation(pipe, new.animation)
+            before = stored or new
+            after = None if before is None else change(before)
+            if after is None:
+                pipe.unwatch()
+                return None
+            after = after.with_(updated=time.time())
+            pipe.multi()
+            _write(pipe, after)
+            counters.count_change(pipe, before, after)
+            if also is not None:
+                also(pipe, after)
+            return after
+
+        return transact(self._redis, write, key)
 
     def delete(self, record: SegmentationRecord) -> bool:
         """Forget a segmentation and its result; False, and nothing is forgotten, where it is live again: cancel it."""

@@ -3,8 +3,8 @@
 import time
 
 from caesura.worker.queue.job_problems import LOST
+from caesura.worker.queue.jobs import retry_delay_seconds
 from caesura.worker.queue.orphaned_jobs import OrphanedJobWatch, recover_orphaned_jobs
-from caesura.worker.queue.retry_delays import retry_delay_seconds
 from caesura.worker.records import redis_keys
 from caesura.worker.records.attempts import LEASE_SECONDS
 

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from caesura.core.methods.luo2014.partition import partition_frames
-from caesura.core.methods.luo2014.segment_grouping import group_segments
+from caesura.core.methods.luo2014 import group_segments, partition_frames
 from tests import oracles
 
 
