@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32
 
-from caesura.core.descriptors.strain import ROUNDING
+from caesura.core.frames.sampled_frames import ROUNDING
 from caesura.core.mesh.angles import AngleDefect, FoldAngles, Rows, Totals
 from caesura.core.mesh.edges import find_hinges
 from caesura.core.mesh.mesh import Mesh

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32, Float64, Int, Int32
 
-from caesura.core.descriptors.strain import ROUNDING
+from caesura.core.frames.sampled_frames import ROUNDING
 from caesura.core.kernels import mesh_edges
 from caesura.core.mesh.edge_graph import EdgeGraph
 from caesura.core.mesh.mesh import Mesh

@@ -19,8 +19,8 @@ import numpy as np
 from jaxtyping import Float32, Float64, Int
 from scipy.linalg import eigh
 
-from caesura.core.descriptors.strain import ROUNDING
 from caesura.core.errors import LimitExceeded
+from caesura.core.frames.sampled_frames import ROUNDING
 from caesura.core.mesh.edges import label_connected_pieces, list_edges
 from caesura.core.mesh.laplacian import Laplacian
 from caesura.core.mesh.mesh import Mesh

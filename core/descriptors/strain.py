@@ -21,8 +21,6 @@ MEASURES = {"log": descriptors.LOG, "biot": descriptors.BIOT, "max": descriptors
 """`log`: sqrt(ln²σ1 + ln²σ2) (Hencky); `biot`: sqrt((σ1−1)² + (σ2−1)²); `max`: max(|σ1−1|, |σ2−1|). σ = sqrt(λ)."""
 
 TILE = 1024
-ROUNDING = 2.0**-20
-"""Relative error of the edges of a triangle whose corners were rounded to float32, with room for how they were made."""
 
 
 @dataclass(frozen=True)
