@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from caesura.core.animation import Animation
+from caesura.core.descriptors.descriptor import Descriptor
 from caesura.core.descriptors.strain import TriangleStrain
-from caesura.core.descriptors.table import Descriptor
 from caesura.core.frames.sampled_frames import choose_sample_frames, largest_coordinate, read_sampled_frames
 
 FRAMES = 32
