@@ -11,9 +11,9 @@ import click
 from caesura.core.document import SegmentationDocument
 from caesura.core.errors import CaesuraError
 from caesura.formats.clips.clip_options import ClipOptions
+from caesura.formats.exports.csv_tables import frames_csv, plot_svg, segments_csv, segments_vtt
+from caesura.formats.exports.elan import segments_eaf
 from caesura.service.commands.buffers import scratch_buffer
-from caesura.service.results.elan import segments_eaf
-from caesura.service.results.text_formats import frames_csv, plot_svg, segments_csv, segments_vtt
 
 Parts = Mapping[str, memoryview]
 Write = Callable[[Parts, SegmentationDocument, ClipOptions], tuple[str, Iterator[bytes]]]

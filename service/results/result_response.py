@@ -8,13 +8,13 @@ from anyio import to_thread
 from fastapi import Request, Response
 
 from caesura.core.document import SegmentationDocument
+from caesura.formats.exports import csv_tables as text_formats
+from caesura.formats.exports.elan import segments_eaf
 from caesura.service.backend import Backend
 from caesura.service.documents import StatusDocument
 from caesura.service.http.prefer_header import preferred_wait_seconds
 from caesura.service.problems.status_table import Refusal, problem_response
-from caesura.service.results import text_formats
 from caesura.service.results.byte_ranges import StoredFile, cache_headers, is_not_modified, stored_response
-from caesura.service.results.elan import segments_eaf
 from caesura.service.results.result_formats import ResultFormat
 from caesura.service.results.revision_request import revised_document, revision_number
 from caesura.service.segmentations.status_response import ASK_AGAIN, preference_applied, problem_of, status_response

@@ -5,9 +5,10 @@ from collections import Counter
 from itertools import pairwise
 from xml.etree import ElementTree
 
-from caesura.core.document import Interval, KeyFrame, Segment
-from caesura.service.results.elan import segments_eaf
 from tests.service.test_exports import document
+
+from caesura.core.document import Interval, KeyFrame, Segment
+from caesura.formats.exports.elan import segments_eaf
 
 NAME = r"[A-Za-z_][\w.-]*"  # xsd:ID and xsd:IDREF
 TEXT = r"(?s).*"

@@ -1,0 +1,10 @@
+"""Files made of a result: one file an export, one table of them.
+
+table       the exports by name
+json_document  the whole result as JSON
+csv_tables  a row for each segment, or for each frame
+webvtt      subtitles for a video
+elan        annotations for ELAN
+npz_arrays  arrays for NumPy
+plot        the energy curve over the segments, as SVG and as PNG
+"""
