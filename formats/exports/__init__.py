@@ -5,6 +5,7 @@ json_document  the whole result as JSON
 csv_tables  a row for each segment, or for each frame
 webvtt      subtitles for a video
 elan        annotations for ELAN
+clip_files  the uploaded file again, with clips or with key poses
 npz_arrays  arrays for NumPy
 plot        the energy curve over the segments, as SVG and as PNG
 """
