@@ -14,7 +14,7 @@ from caesura.service.problems.status_table import STATUS_OF_CODE
 from caesura.service.settings import ServiceSettings
 
 PAGES = sorted(p.relative_to(Path(__file__).parent.parent) for p in Path(__file__).parent.parent.glob("docs/*.md"))
-PAGES += [Path("README.md"), Path("CHANGELOG.md")]
+PAGES += [Path("README.md"), Path("CHANGELOG.md"), Path("CONTRIBUTING.md")]
 RAISED = re.compile(
     r"\b(?:InputError|UnsupportedMedia|BrokenContainer|InvalidModel|LimitExceeded|ParameterError|Refusal|worker_problem)"
     r'\(\s*"([a-z0-9-]+)"'
