@@ -1,6 +1,7 @@
 """Files in, animations out, clips back. Bytes and buffers only: what opens paths is above.
 
 read, header        the two doors: an animation from bytes, and what the headers alone say
+input_formats       the input formats by name: one table of them
 file_type           what kind of file it is, by its first bytes
 gltf, bvh, npz, bundle  one folder a format; `zip` reads and writes the archives
 npy_header        the header of a NumPy array

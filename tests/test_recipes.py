@@ -23,6 +23,10 @@ TOYS = {
         '    Export("result.npz"',
         '    _text("result.toy", "Toy", "a toy", "text/x-toy", "toy:toy", option="toy", option_help="Write a toy."),\n',
     ),
+    "formats/input_formats.py": (
+        '        InputFormat(\n            "npz"',
+        '        InputFormat("toy", "toy file", lambda head: head[:3] == b"TOY", "toy:header", reader="toy:read"),\n',
+    ),
     "core/document.py": ("    scores: tuple[Score, ...] = ()", "    toy_field: int = 0\n"),
     "core/parameters.py": ("    seed: int = _light", '    toy_control: int = _light(3, "a toy", ge=1)\n'),
 }
@@ -31,15 +35,21 @@ TOYS = {
 WRITTEN = {
     "core/methods/toy.py": "def toy(analysis, parameters):\n    return 'cut'\n",
     "core/descriptors/toy.py": "class Toy:\n    from_input = classmethod(lambda cls, subject: cls())\n",
+    "formats/toy.py": "def header(*given):\n    return 'head'\n\n\ndef read(*given):\n    return 'animation'\n",
     "formats/exports/toy.py": "def toy(document):\n    return f'toy of {document}'\n",
 }
 
 PROGRAM = """
+import io
 import json
 from click.testing import CliRunner
 from caesura.core.registry.descriptors import DESCRIPTORS
 from caesura.core.registry.methods import METHODS
+from caesura.core.limits import Limits
+from caesura.core.parameters import Parameters
 from caesura.formats.exports.table import exports_of
+from caesura.formats.header import read_header
+from caesura.formats.read import read_animation
 from caesura.service.app import create_app
 from caesura.service.commands.cli import main
 from caesura.service.results.result_formats import export_documents
@@ -55,6 +65,8 @@ print(json.dumps({
         METHODS["toy-method"].load()(None, None),
         type(DESCRIPTORS["toy-descriptor"].load()(None)).__name__,
         exports_of("result")["toy"].text("x"),
+        read_header(io.BytesIO(b"TOY 1"), "a.toy", Limits()),
+        read_animation({"a.toy": b"TOY 1"}, Parameters(), Limits(), None),
     ],
 }))
 """
@@ -101,6 +113,13 @@ def test_a_descriptor_is_a_file_and_a_line(offered: dict[str, Any]) -> None:
     assert "how much of a toy it is" in query(offered, "descriptor")["description"]
     assert "toy-descriptor" in offered["methods"][0]["parameters"]["properties"]["descriptor"]["enum"]
     assert offered["made"][1] == "Toy"
+
+
+def test_an_input_format_is_a_file_and_a_line(offered: dict[str, Any]) -> None:
+    """Its files are known by their first bytes, and read; the command and OpenAPI say so."""
+    assert "toy file (.toy)" in " ".join(offered["help"].split())
+    assert "toy file (.toy)" in offered["openapi"]["paths"]["/v1/animations"]["post"]["requestBody"]["description"]
+    assert offered["made"][3:] == ["head", "animation"]
 
 
 def test_an_export_is_a_file_and_a_line(offered: dict[str, Any]) -> None:

@@ -4,6 +4,7 @@ from typing import Any
 
 from caesura.core.parameters import Parameters
 from caesura.formats.exports.table import Export, exports_of
+from caesura.formats.input_formats import READABLE_FORMATS
 from caesura.service.api_description.examples import ANIMATION_ID
 
 _BYTES: dict[str, Any] = {"type": "string", "format": "binary"}
@@ -18,7 +19,7 @@ _FORM: dict[str, Any] = {
 FILE_BODY: dict[str, Any] = {
     "requestBody": {
         "required": True,
-        "description": "A .glb, .gltf, .bvh, .npz or .zip, judged by its first bytes, or a form of files.",
+        "description": f"A file, judged by its first bytes: {READABLE_FORMATS}. Or a form of files.",
         "content": {"application/octet-stream": {"schema": _BYTES}, "multipart/form-data": {"schema": _FORM}},
     }
 }

@@ -12,6 +12,7 @@ from caesura.core.document import SegmentationDocument
 from caesura.core.errors import CaesuraError
 from caesura.formats.clips.clip_options import ClipOptions
 from caesura.formats.exports.table import EXPORTS, Export, ExportSource, exports_of
+from caesura.formats.input_formats import INPUT_FORMATS
 from caesura.service.commands.buffers import scratch_buffer
 
 Parts = Mapping[str, memoryview]
@@ -136,7 +137,7 @@ def _is_an_animation(path: Path) -> bool:
     with path.open("rb") as file:
         start = file.read(20)
         if start[:4] != b"glTF":
-            return path.suffix.lower() in {".gltf", ".npz", ".bvh"}
+            return path.suffix.lower() in {known.suffix for known in INPUT_FORMATS.values()} - {".zip", ".glb"}
         return b'"caesura"' not in file.read(int.from_bytes(start[12:16], "little"))
 
 
