@@ -21,9 +21,9 @@ from benchmarks.scores import Row, Scores
 from benchmarks.sequences import Known, sequences
 from benchmarks.table import HEAD, line, means, promises
 from caesura.core.errors import ParameterError
-from caesura.core.methods.table import METHODS
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import cut
+from caesura.core.registry.methods import METHODS
 
 RANDOM = frozenset({"joint-entropy", "spectral", "aca", "haca"})
 PAPER = "The paper's own figure 7, mean of 14 trials, K told: joint-entropy 0.903, SC 0.861, ACA 0.942, HACA 0.950."

@@ -14,9 +14,9 @@ from jaxtyping import Float, Int
 from benchmarks.report import ACCURACY, write_section
 from caesura.core.animation import Animation, Take
 from caesura.core.errors import CaesuraError
-from caesura.core.methods.table import METHODS
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import segment
+from caesura.core.registry.methods import METHODS
 
 RATE = 30.0
 FRAMES = 150

@@ -6,7 +6,8 @@ mesh, descriptors         meshes at rest, and what is measured on them: strain, 
 frames                    frames of vertices, read in blocks
 block_pass                the one pass over the vertices, block of frames by block of frames
 energy                    joint entropy, the energy curve, its key-frames
-methods                   from an analysis to cuts and motions: one folder a family, one table of all
+methods                   from an analysis to cuts and motions: one folder a family
+registry                  methods and descriptors by name, one line each
 repetition                the repetitions inside every segment
 analysis, segmentation    what is computed once from the vertices, and what every cut of it gives
 document, revision        the result as JSON, and what people change in it

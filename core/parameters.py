@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from caesura.core.errors import ParameterError
-from caesura.core.methods.table import METHODS
+from caesura.core.registry.descriptors import DESCRIPTORS
+from caesura.core.registry.methods import METHODS
 
 ALGORITHM = "3"
 
@@ -22,8 +23,10 @@ Positive = Field(gt=0, allow_inf_nan=False)
 
 if TYPE_CHECKING:
     MethodName = str
+    DescriptorName = str
 else:
     MethodName = Literal[*METHODS]
+    DescriptorName = Literal[*DESCRIPTORS]
 
 
 def _heavy(default: Any, description: str, **rules: Any) -> Any:
@@ -51,8 +54,9 @@ class Parameters(BaseModel):
     rest: Literal["bind", "mean"] | int = _heavy(
         "bind", "rest shape: `bind` (bind pose or base mesh, else frame 0), `mean`, or a frame's number"
     )
-    descriptor: Literal["strain", "pair-distances", "geodesic", "heat-kernel", "curvature"] = _heavy(
-        "strain", "what is measured on each triangle (paper, section 3), or between pairs of points"
+    descriptor: DescriptorName = _heavy(
+        "strain",
+        f"what is measured: {'; '.join(f'`{entry.name}`, {entry.description}' for entry in DESCRIPTORS.values())}",
     )
     strain: Literal["log", "biot", "max"] = _heavy("log", "measure of strain: Hencky (`log`), Biot, or largest")
     curvature: Literal["gaussian", "mean"] = _heavy("gaussian", "which curvature the descriptor `curvature` is")

@@ -14,9 +14,10 @@ from caesura.core.document import Notice, Source
 from caesura.core.energy.energy_curve import compute_energy_curve, frames_per_window
 from caesura.core.energy.key_frames import find_local_maxima
 from caesura.core.errors import InvalidModel
-from caesura.core.methods.table import METHODS
 from caesura.core.parameters import ALGORITHM, Parameters
 from caesura.core.progress import Progress, ignore_progress
+from caesura.core.registry.descriptors import DESCRIPTORS
+from caesura.core.registry.methods import METHODS
 from caesura.core.repetition.repetitions import RepetitionFinder, find_repetitions
 from caesura.core.segmentation import Segmentation, number_by_appearance
 
@@ -129,7 +130,7 @@ def _notices(animation: Animation, take: PassResult, length: int, descriptor: st
     if not take.has_strain and not take.has_pair_changes:
         detail = "The body moves as one rigid piece: nothing deforms, so the take is one segment."
         said.append(Notice(code="no-deformation", detail=detail))
-    elif len(animation.triangles) and take.block_pass.body.patches.patches == 0 and descriptor != "pair-distances":
+    elif DESCRIPTORS[descriptor].per_triangle and len(animation.triangles) and not take.block_pass.body.patches.patches:
         what = "do not strain" if descriptor == "strain" else f"do not change by the descriptor {descriptor}"
         detail = f"The triangles of this mesh {what}, so the energy curve is of distances between its points."
         said.append(Notice(code="no-strain", detail=detail))

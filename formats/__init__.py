@@ -1,10 +1,13 @@
 """Files in, animations out, clips back. Bytes and buffers only: what opens paths is above.
 
 read, header        the two doors: an animation from bytes, and what the headers alone say
+input_formats       the input formats by name: one table of them
 file_type           what kind of file it is, by its first bytes
 gltf, bvh, npz, bundle  one folder a format; `zip` reads and writes the archives
 npy_header        the header of a NumPy array
 clips               the same file cut into named clips
+exports             the files made of a result: one table of them
+written_file        a file that is written piece by piece
 playback            what the page plays
 kernels             compiled functions of sampling, posing and decoding
 take_selection      the take that is meant

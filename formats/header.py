@@ -17,6 +17,7 @@ from caesura.formats.gltf.animation.key_times import KeyTimes
 from caesura.formats.gltf.container import CHUNK, HEADER, glb_length, json_chunk_length, parse_root
 from caesura.formats.gltf.document import check_extensions
 from caesura.formats.gltf.summary import AnimationSummary, estimate_scene_size, summarise_animations
+from caesura.formats.input_formats import INPUT_FORMATS
 from caesura.formats.notices import Notices
 from caesura.formats.npz.members import check_shapes, find_members_by_use
 from caesura.formats.zip.archive import Archive
@@ -57,16 +58,13 @@ def read_header(file: BinaryIO, name: str, limits: Limits) -> Header:
     """
     file.seek(0)
     kind = detect_file_type(file.read(SIGNATURE_BYTES))
-    if kind == "npz":
-        return _npz_header(file, name, limits)
-    if kind == "zip":
-        return _zip_header(file, name, limits)
-    if kind == "bvh":
-        return _bvh_header(file, name, limits)
-    return _gltf_header(file, kind, name, limits)
+    known = INPUT_FORMATS[kind]
+    header: Header = known.load(known.header)(file, kind, name, limits)
+    return header
 
 
-def _gltf_header(file: BinaryIO, kind: Format, name: str, limits: Limits) -> Header:
+def gltf_header(file: BinaryIO, kind: Format, name: str, limits: Limits) -> Header:
+    """That of a glTF or GLB, by its JSON where that is short."""
     size = file.seek(0, 2)
     start, length = _json_of_glb(file, size) if kind == "glb" else (0, size)
     limits.check("max_json_bytes", length, "Send it as a GLB without data in its JSON")
@@ -93,30 +91,31 @@ def _take(place: int, clip: AnimationSummary) -> HeaderTake:
     return HeaderTake(place, clip.name, clip.seconds, int(min(count_frames(clip.seconds, rate), MOST_FRAMES)), rate)
 
 
-def _bvh_header(file: BinaryIO, name: str, limits: Limits) -> Header:
+def bvh_header(file: BinaryIO, kind: Format, name: str, limits: Limits) -> Header:
+    """That of a BVH."""
     file.seek(0)
     head = read_bvh_header(file.read(2 * MOST_JSON), limits)
     rate = snap_frame_rate(head.rate) or ASSUMED
     seconds = max(head.frames - 1, 0) / head.rate
     frames = int(min(count_frames(seconds, rate), MOST_FRAMES))
-    return Header("bvh", name, (HeaderTake(0, "motion", seconds, frames, rate),), len(head.joints), 0)
+    return Header(kind, name, (HeaderTake(0, "motion", seconds, frames, rate),), len(head.joints), 0)
 
 
-def _zip_header(file: BinaryIO, name: str, limits: Limits) -> Header:
+def zip_header(file: BinaryIO, kind: Format, name: str, limits: Limits) -> Header:
     """That of its model, by its first megabytes, or the number of its shapes."""
     files = ZipMembers(file, limits)
     if files.are_arrays():
-        return _npz_header(file, name, limits)
+        return npz_header(file, "npz", name, limits)
     model = files.model()
     if model is None:
         frames = len(files.shapes())
-        return Header("zip", name, (HeaderTake(0, "vertices", (frames - 1) / ASSUMED, frames, ASSUMED),))
+        return Header(kind, name, (HeaderTake(0, "vertices", (frames - 1) / ASSUMED, frames, ASSUMED),))
     with errors_as_zip(), files.inflate(model) as inner:
         data = inner.read(2 * MOST_JSON)
-    if detect_file_type(data[:SIGNATURE_BYTES]) in {"zip", "npz"}:
+    if INPUT_FORMATS[detect_file_type(data[:SIGNATURE_BYTES])].reader:
         raise refuse_nested_archive(model)
     found = read_header(_Beginning(data, files.members[model].file_size), name, limits)
-    return Header("zip", name, found.takes, found.vertices, found.triangles)
+    return Header(kind, name, found.takes, found.vertices, found.triangles)
 
 
 class _Beginning(io.BytesIO):
@@ -131,7 +130,8 @@ class _Beginning(io.BytesIO):
         return super().seek(offset + self._size, io.SEEK_SET) if whence == io.SEEK_END else super().seek(offset, whence)
 
 
-def _npz_header(file: BinaryIO, name: str, limits: Limits) -> Header:
+def npz_header(file: BinaryIO, kind: Format, name: str, limits: Limits) -> Header:
+    """That of an archive of arrays, by the headers of its members."""
     archive = Archive(file, limits)
     members = find_members_by_use(archive, Notices())
     headers = {what: archive.header(member) for what, member in members.items()}
@@ -140,4 +140,4 @@ def _npz_header(file: BinaryIO, name: str, limits: Limits) -> Header:
     rate = archive.number(members["frame_rate"]) if "frame_rate" in members else ASSUMED
     rate = rate if 1 / MOST_FRAMES < rate < MOST_FRAMES else ASSUMED
     take = HeaderTake(0, "vertices", (frames - 1) / rate, frames, rate)
-    return Header("npz", name, (take,), vertices, headers["triangles"].shape[0])
+    return Header(kind, name, (take,), vertices, headers["triangles"].shape[0])

@@ -12,10 +12,10 @@ from caesura.core.parameters import Parameters
 from caesura.formats.buffer_file import BufferFile
 from caesura.formats.bundle.members import ZipMembers, refuse_nested_archive
 from caesura.formats.bundle.read import read_member, read_shapes
-from caesura.formats.bvh.gltf_conversion import convert_bvh_to_glb
 from caesura.formats.file_type import SIGNATURE_BYTES, detect_file_type
 from caesura.formats.gltf.read import read_gltf
 from caesura.formats.header import read_header
+from caesura.formats.input_formats import INPUT_FORMATS, InputFormat
 from caesura.formats.mesh_and_motion import pair_mesh_and_motion
 from caesura.formats.npz.read import read_npz
 
@@ -37,24 +37,31 @@ def read_animation(parts: Mapping[str, Part], parameters: Parameters, limits: Li
         return _read_pair(views, models, parameters, limits)
     model = find_main_part(views)
     data = views.pop(model)
-    kind = detect_file_type(bytes(data[:SIGNATURE_BYTES]))
-    if kind == "zip":
-        files = ZipMembers(cast("BinaryIO", BufferFile(data)), limits)
-        if files.are_arrays():
-            return read_npz(data, parameters, limits, scratch)
-        name = files.model()
-        if name is None:
-            return read_shapes(files, data, parameters, limits, scratch)
-        views = {called: read_member(files, other, data, scratch) for called, other in files.beside(name).items()}
-        data = read_member(files, name, data, scratch)
-        kind = detect_file_type(bytes(data[:SIGNATURE_BYTES]))
-        if kind in {"zip", "npz"}:
-            raise refuse_nested_archive(name)
-    if kind == "npz":
+    known = INPUT_FORMATS[detect_file_type(bytes(data[:SIGNATURE_BYTES]))]
+    if known.reader:
+        animation: Animation = known.load(known.reader)(data, parameters, limits, scratch)
+        return animation
+    return read_gltf(_convert_to_gltf(known, data, limits), views, parameters, limits)
+
+
+def read_zip(data: memoryview, parameters: Parameters, limits: Limits, scratch: Scratch) -> Animation:
+    """The animation of a zip: of its one model and the files beside it, or of numbered shapes."""
+    files = ZipMembers(cast("BinaryIO", BufferFile(data)), limits)
+    if files.are_arrays():
         return read_npz(data, parameters, limits, scratch)
-    if kind == "bvh":
-        data = memoryview(convert_bvh_to_glb(data, limits))
-    return read_gltf(data, views, parameters, limits)
+    name = files.model()
+    if name is None:
+        return read_shapes(files, data, parameters, limits, scratch)
+    views = {called: read_member(files, other, data, scratch) for called, other in files.beside(name).items()}
+    model = read_member(files, name, data, scratch)
+    known = INPUT_FORMATS[detect_file_type(bytes(model[:SIGNATURE_BYTES]))]
+    if known.reader:
+        raise refuse_nested_archive(name)
+    return read_gltf(_convert_to_gltf(known, model, limits), views, parameters, limits)
+
+
+def _convert_to_gltf(known: InputFormat, data: memoryview, limits: Limits) -> memoryview:
+    return memoryview(known.load(known.to_gltf)(data, limits)) if known.to_gltf else data
 
 
 def _read_pair(views: dict[str, memoryview], models: list[str], parameters: Parameters, limits: Limits) -> Animation:
@@ -66,10 +73,10 @@ def _read_pair(views: dict[str, memoryview], models: list[str], parameters: Para
 
 
 def _open_as_gltf(data: memoryview, limits: Limits) -> memoryview:
-    kind = detect_file_type(bytes(data[:SIGNATURE_BYTES]))
-    if kind in {"npz", "zip"}:
+    known = INPUT_FORMATS[detect_file_type(bytes(data[:SIGNATURE_BYTES]))]
+    if known.reader:
         raise InvalidModel("ambiguous-upload", "An archive is an animation of its own. Send it without other files.")
-    return memoryview(convert_bvh_to_glb(data, limits)) if kind == "bvh" else data
+    return _convert_to_gltf(known, data, limits)
 
 
 def list_takes(parts: Mapping[str, Part], limits: Limits) -> tuple[Take, ...]:

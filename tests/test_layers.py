@@ -45,3 +45,32 @@ def test_an_arrow_that_points_up_is_noticed(copy: Path, module: str, line: str) 
     run = contracts(copy)
     assert run.returncode == 1, run.stdout
     assert f"{module}.wrong" in run.stdout
+
+
+def test_the_picture_of_the_rooms_is_drawn_from_the_imports(checkout: Path) -> None:
+    """No two rooms import each other in a circle, none imports upwards, and docs/architecture.svg shows it."""
+    program = [sys.executable, "tools/architecture.py", "--check"]
+    run = subprocess.run(program, check=False, cwd=checkout, capture_output=True, text=True, timeout=60)
+    assert run.returncode == 0, run.stderr
+
+
+@pytest.mark.parametrize(
+    ("file", "line", "said"),
+    [
+        ("core/mesh/mesh.py", "import caesura.core.block_pass.projection", "circle"),
+        ("core/mesh/mesh.py", "import caesura.formats.read", "core/mesh -> formats/read"),
+        ("core/plot/svg.py", "import caesura.core.agreement", "is old"),
+    ],
+)
+def test_a_circle_of_rooms_is_noticed(copy: Path, checkout: Path, file: str, line: str, said: str) -> None:
+    """As are an import that points upwards, and a picture that is not drawn anew."""
+    for folder in ("core", "formats", "worker", "service", "samples"):
+        (copy / "caesura" / folder).rename(copy / folder)
+    for folder in ("tools", "docs"):
+        shutil.copytree(checkout / folder, copy / folder)
+    with (copy / file).open("a") as module:
+        module.write(f"\n{line}\n")
+    program = [sys.executable, "tools/architecture.py", "--check"]
+    run = subprocess.run(program, check=False, cwd=copy, capture_output=True, text=True, timeout=60)
+    assert run.returncode == 1
+    assert said in run.stderr

@@ -4,22 +4,16 @@ A form is a name, and after a question mark the revision and the options that ar
 `clips?revision=3&origin=keep`.
 """
 
-import io
-import json
 import logging
 import time
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from urllib.parse import parse_qsl
 
-import numpy as np
-
 from caesura.core.document import SegmentationDocument
-from caesura.core.plot.layout import lay_out_picture
-from caesura.core.plot.png import render_png
 from caesura.core.revision import apply_revision
 from caesura.formats.clips.clip_options import ClipOptions
-from caesura.formats.clips.write import Parts, Scratch, WrittenFile, write_clips, write_key_poses
+from caesura.formats.exports.table import EXPORTS, Export, ExportSource
+from caesura.formats.written_file import WrittenFile
 from caesura.worker.process.job_quota import JobQuota
 from caesura.worker.queue.job_problems import INTERNAL_ERROR, problem_of
 from caesura.worker.queue.queues import TimeLimit
@@ -38,76 +32,36 @@ MOST_EXPORTS = 16
 """Files made of one result that are kept, and answers why there is none: choices and revisions are many, and each may
 ask for a copy of the upload."""
 
-ResultFileOptions = dict[str, str]
+WRITERS = {export.suffix: export for export in EXPORTS if export.queued}
+"""The exports that a job makes, by the names of their forms."""
 
 
 @dataclass(frozen=True)
 class ResultFileJob:
-    """What a file is made of; `keep` stores it."""
+    """What a file is made of."""
 
     records: Records
     blobs: Blobs
     settings: WorkerSettings
     record: SegmentationRecord
-    document: SegmentationDocument
-    energy: bytes
+    source: ExportSource
 
-    def keep(self, content: bytes | Iterator[bytes], media_type: str) -> ExportRecord:
-        """Where the file is, from now on; raises `StorageFull`."""
-        key = self.blobs.put(content, "exports", self.settings.min_free_bytes)
-        return ExportRecord(key=key, media_type=media_type, created=time.time())
+    def make(self, export: Export) -> ExportRecord:
+        """Where the file is, from now on; raises `StorageFull`, or `BlobMissing` where the upload is gone."""
+        if not export.of_upload:
+            return self._keep(export.write(self.source))
+        animation = self.records.animations.one(self.record.animation)
+        if animation is None or not animation.parts:
+            raise BlobMissing(self.record.animation)
+        settings = self.settings
+        quota = JobQuota(settings.job_memory_bytes, settings.job_seconds)
+        with map_parts(self.blobs, animation.parts, quota.extend) as parts:
+            scratch = scratch_space(settings.scratch_dir, quota.extend, settings.min_free_bytes)
+            return self._keep(export.write(replace(self.source, parts=parts, scratch=scratch)))
 
-
-def npz(export: ResultFileJob, _: ResultFileOptions) -> ExportRecord:
-    """`energy` (frames,) float32, `labels` (frames,) uint16, `key_frames` (keys,), `segments` (segments, 3) of
-
-    start, end, motion; `frame_rate`; and the whole document as JSON in `document`.
-    """
-    out, document = io.BytesIO(), export.document
-    lengths = [s.end - s.start for s in document.segments]
-    np.savez_compressed(
-        out,
-        energy=np.frombuffer(export.energy, "<f4"),
-        labels=np.repeat(np.array([s.motion for s in document.segments], "<u2"), lengths),
-        key_frames=np.array([key.frame for key in document.key_frames], np.int64),
-        segments=np.array([[s.start, s.end, s.motion] for s in document.segments], np.int64),
-        frame_rate=np.float64(document.frame_rate),
-        document=np.frombuffer(json.dumps(document.model_dump(mode="json")).encode(), np.uint8),
-    )
-    return export.keep(out.getvalue(), "application/octet-stream")
-
-
-def plot(export: ResultFileJob, _: ResultFileOptions) -> ExportRecord:
-    """The curve, its key-frames, the cuts and the segments in colour."""
-    font = export.settings.font
-    return export.keep(render_png(lay_out_picture(export.document), font.read_bytes() if font else None), "image/png")
-
-
-def clips(export: ResultFileJob, options: ResultFileOptions) -> ExportRecord:
-    """The upload with its take in clips."""
-    chosen = ClipOptions.of(options)
-    return _of_upload(export, lambda parts, scratch: write_clips(parts, export.document, chosen, scratch))
-
-
-def keyframes(export: ResultFileJob, _: ResultFileOptions) -> ExportRecord:
-    """The upload with its take reduced to key poses."""
-    return _of_upload(export, lambda parts, scratch: write_key_poses(parts, export.document, scratch))
-
-
-def _of_upload(export: ResultFileJob, write: Callable[[Parts, Scratch], WrittenFile]) -> ExportRecord:
-    """A file made of the uploaded one, which must still be there."""
-    animation = export.records.animations.one(export.record.animation)
-    if animation is None or not animation.parts:
-        raise BlobMissing(export.record.animation)
-    settings = export.settings
-    allowance = JobQuota(settings.job_memory_bytes, settings.job_seconds)
-    with map_parts(export.blobs, animation.parts, allowance.extend) as parts:
-        written = write(parts, scratch_space(settings.scratch_dir, allowance.extend, settings.min_free_bytes))
-        return export.keep(written.pieces, written.media_type)
-
-
-ResultFileWriter = Callable[[ResultFileJob, ResultFileOptions], ExportRecord]
-WRITERS: dict[str, ResultFileWriter] = {"npz": npz, "png": plot, "clips": clips, "keyframes": keyframes}
+    def _keep(self, written: WrittenFile) -> ExportRecord:
+        key = self.blobs.put(written.pieces, "exports", self.settings.min_free_bytes)
+        return ExportRecord(key=key, media_type=written.media_type, created=time.time())
 
 
 def make_result_file(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: str, form: str) -> None:
@@ -123,9 +77,14 @@ def make_result_file(records: Records, blobs: Blobs, settings: WorkerSettings, i
     result = SegmentationDocument.model_validate_json(document)
     if revision:
         result = apply_revision(result, revision, edits)
-    export = ResultFileJob(records, blobs, settings, record, result, energy)
     try:
-        made = WRITERS[name](export, options)
+        source = ExportSource(
+            result,
+            energy,
+            font=lambda: settings.font.read_bytes() if settings.font else None,
+            options=ClipOptions.of(options),
+        )
+        made = ResultFileJob(records, blobs, settings, record, source).make(WRITERS[name])
     except (Exception, TimeLimit) as fault:
         made = ExportRecord(problem=problem_of(fault), created=time.time())
         if made.problem == INTERNAL_ERROR:

@@ -5,9 +5,9 @@ import numpy as np
 from caesura.core.analysis import Features
 from caesura.core.animation import Animation
 from caesura.core.block_pass.measured_body import MeasuredBody
-from caesura.core.block_pass.projection import Projection, choose_sample_frames
+from caesura.core.block_pass.projection import Projection
 from caesura.core.frames.blocks import frames_per_block, map_blocks, split_into_blocks, threads_at_once
-from caesura.core.frames.sampled_frames import read_sampled_frames
+from caesura.core.frames.sampled_frames import choose_sample_frames, read_sampled_frames
 from caesura.core.progress import Progress, ignore_progress
 
 HELD_BYTES = 64 * 2**20

@@ -6,16 +6,18 @@ import numpy as np
 from jaxtyping import Float32
 
 from caesura.core.animation import Animation
+from caesura.core.descriptors.descriptor import Descriptor, DescriptorInput
 from caesura.core.descriptors.pair_distances import PairDistances
 from caesura.core.descriptors.pair_strain import PairStrain
 from caesura.core.descriptors.patch_means import PatchMeans
-from caesura.core.descriptors.strain import TILE, TriangleStrain
-from caesura.core.descriptors.table import DESCRIPTORS, Descriptor, DescriptorInput
+from caesura.core.descriptors.strain import TriangleStrain
 from caesura.core.document import Notice
 from caesura.core.errors import InvalidModel
+from caesura.core.kernels.descriptors import TILE
 from caesura.core.mesh.patches import assign_patches
 from caesura.core.mesh.triangle_order import order_triangles
 from caesura.core.parameters import Parameters
+from caesura.core.registry.descriptors import DESCRIPTORS
 
 
 @dataclass(frozen=True)
@@ -43,8 +45,8 @@ class MeasuredBody:
         Raises `InvalidModel` where there are triangles and none has area at rest.
         """
         triangles = animation.triangles
-        pairs = PairDistances.of(rest, triangles)
         if len(triangles) == 0:
+            pairs = PairDistances.of(rest, triangles)
             notice = Notice(
                 code="no-mesh-skeleton",
                 detail="There is no mesh: the motions are those of the joints, by their distances from each other.",
@@ -58,10 +60,10 @@ class MeasuredBody:
         if strain.columns == 0:
             detail = "No triangle of the rest shape has area, so nothing can be strained. Send a mesh with a surface."
             raise InvalidModel("degenerate-mesh", detail, pointer="/meshes" if animation.gltf is not None else None)
-        if parameters.descriptor == "pair-distances":
-            return cls(PairStrain.of(pairs), NO_PATCHES, pairs), _left_out_notice(strain)
-        surface = DESCRIPTORS[parameters.descriptor](DescriptorInput(animation, rest, strain, parameters))
-        return cls(surface, PatchMeans.of(patch[strain.triangles], strain.areas), pairs), _left_out_notice(strain)
+        subject = DescriptorInput(animation, rest, strain, parameters)
+        descriptor = DESCRIPTORS[parameters.descriptor]
+        means = PatchMeans.of(patch[strain.triangles], strain.areas) if descriptor.per_triangle else NO_PATCHES
+        return cls(descriptor.load()(subject), means, subject.pairs), _left_out_notice(strain)
 
     def by_pairs(self) -> "MeasuredBody":
         """The same body, with the strain of its pairs of points in place of its triangles'."""

@@ -3,11 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Float
 from threadpoolctl import threadpool_limits
 
 COMPONENTS = 20
-SAMPLE = 2000
 
 
 @dataclass(frozen=True)
@@ -45,13 +44,6 @@ class Projection:
         Safe from several threads; the caller holds BLAS to one thread, as everywhere in the core.
         """
         return np.asarray((block - self.mean) @ self.components, np.float32)
-
-
-def choose_sample_frames(frames: int, most: int = SAMPLE) -> Int[np.ndarray, "sample"]:
-    """At most `most` frames, evenly spaced from the first to the last: what the projection is learnt from."""
-    if frames <= most:
-        return np.arange(frames)
-    return np.linspace(0, frames - 1, most).round().astype(np.int64)
 
 
 def _principal_components(

@@ -5,10 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from caesura.core.animation import Animation
-from caesura.core.block_pass.projection import choose_sample_frames
+from caesura.core.descriptors.descriptor import Descriptor
 from caesura.core.descriptors.strain import TriangleStrain
-from caesura.core.descriptors.table import Descriptor
-from caesura.core.frames.sampled_frames import largest_coordinate, read_sampled_frames
+from caesura.core.frames.sampled_frames import choose_sample_frames, largest_coordinate, read_sampled_frames
 
 FRAMES = 32
 LEAST_FRAMES = 8

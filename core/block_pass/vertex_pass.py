@@ -12,8 +12,8 @@ from caesura.core.block_pass.features import learn_feature_basis
 from caesura.core.block_pass.measured_body import MeasuredBody
 from caesura.core.block_pass.quantisation import CODES, Quantisation, find_normalising_strain
 from caesura.core.block_pass.range_estimate import RangeEstimate
-from caesura.core.descriptors.strain import ROUNDING
 from caesura.core.frames.blocks import Block, frames_per_block, map_blocks, split_into_blocks, threads_at_once
+from caesura.core.frames.sampled_frames import ROUNDING
 from caesura.core.kernels.counting import look_up
 from caesura.core.parameters import Parameters
 from caesura.core.progress import Progress, ignore_progress

@@ -1,6 +1,6 @@
-"""What is measured of a body in each frame: one file a descriptor, one table of them.
+"""What is measured of a body in each frame: one file a descriptor; `core.registry` lists them.
 
-table           the descriptors by name
+descriptor      what every descriptor offers, and what it is made of
 strain          how far each triangle is stretched
 pair_distances  how far points of the body are from each other
 pair_strain     how far pairs of points are stretched, where there are no triangles

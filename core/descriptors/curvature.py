@@ -16,7 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32
 
-from caesura.core.descriptors.strain import ROUNDING
+from caesura.core.descriptors.descriptor import DescriptorInput
+from caesura.core.frames.sampled_frames import ROUNDING
 from caesura.core.mesh.angles import AngleDefect, FoldAngles, Rows, Totals
 from caesura.core.mesh.edges import find_hinges
 from caesura.core.mesh.mesh import Mesh
@@ -46,6 +47,11 @@ class Curvature:
         at_rest = _sum(mesh, slice(None), total(mesh.rows_at_rest()))
         per_unit = (ROUNDING * np.sqrt(_sum(mesh, slice(None), rounding)) / unit).astype(np.float32)
         return cls(mesh, total, at_rest, unit[:, None].astype(np.float32), per_unit)
+
+    @classmethod
+    def from_input(cls, subject: DescriptorInput) -> "Curvature":
+        """That of the welded mesh, Gaussian or mean as chosen."""
+        return cls.of(subject.mesh, subject.parameters.curvature)
 
     @property
     def columns(self) -> int:

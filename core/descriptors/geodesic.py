@@ -16,7 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32, Float64, Int, Int32
 
-from caesura.core.descriptors.strain import ROUNDING
+from caesura.core.descriptors.descriptor import DescriptorInput
+from caesura.core.frames.sampled_frames import ROUNDING
 from caesura.core.kernels import mesh_edges
 from caesura.core.mesh.edge_graph import EdgeGraph
 from caesura.core.mesh.mesh import Mesh
@@ -47,6 +48,11 @@ class Geodesic:
         sources = tuple(_sources(net, mesh))
         average = _average(net, sources, mesh.rows_at_rest())
         return cls(mesh, net, sources, mesh.on_triangles(slice(None), average))
+
+    @classmethod
+    def from_input(cls, subject: DescriptorInput) -> "Geodesic":
+        """That of the welded mesh."""
+        return cls.of(subject.mesh)
 
     @property
     def columns(self) -> int:

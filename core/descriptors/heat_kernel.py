@@ -19,8 +19,9 @@ import numpy as np
 from jaxtyping import Float32, Float64, Int
 from scipy.linalg import eigh
 
-from caesura.core.descriptors.strain import ROUNDING
+from caesura.core.descriptors.descriptor import DescriptorInput
 from caesura.core.errors import LimitExceeded
+from caesura.core.frames.sampled_frames import ROUNDING
 from caesura.core.mesh.edges import label_connected_pieces, list_edges
 from caesura.core.mesh.laplacian import Laplacian
 from caesura.core.mesh.mesh import Mesh
@@ -75,6 +76,11 @@ class HeatKernel:
         # A triangle's metric is off by δ over its height; heat feels the mean of that over its way.
         thinness = float(np.sum(mesh.areas * _per_height(mesh)) / whole)
         return cls(mesh, parts, mesh.on_triangles(slice(None), rest), thinness)
+
+    @classmethod
+    def from_input(cls, subject: DescriptorInput) -> "HeatKernel":
+        """That of the welded mesh."""
+        return cls.of(subject.mesh)
 
     @property
     def columns(self) -> int:

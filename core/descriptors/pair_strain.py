@@ -10,8 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32, Int
 
+from caesura.core.descriptors.descriptor import DescriptorInput
 from caesura.core.descriptors.pair_distances import PairDistances
-from caesura.core.descriptors.strain import ROUNDING
+from caesura.core.frames.sampled_frames import ROUNDING
 
 LIMB = (0.06, 0.3)
 """Shares of the body's size that the ends of a limb's joint are apart: not as near as fingers, nor across the body."""
@@ -33,6 +34,11 @@ class PairStrain:
         """The same pairs, less those that coincide at rest."""
         apart = pairs.at_rest > ROUNDING * pairs.size
         return cls(pairs.first[apart], pairs.second[apart], pairs.at_rest[apart])
+
+    @classmethod
+    def from_input(cls, subject: DescriptorInput) -> "PairStrain":
+        """That of the pairs of points of the rest shape."""
+        return cls.of(subject.pairs)
 
     @property
     def columns(self) -> int:

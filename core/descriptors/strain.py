@@ -10,19 +10,20 @@ This form keeps its digits in float32; (tr / 2)² − det does not.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float, Float32, Float64, Int
 
+from caesura.core.frames.sampled_frames import ROUNDING
 from caesura.core.kernels import descriptors
-from caesura.core.kernels.descriptors import WIDTH
+from caesura.core.kernels.descriptors import TILE, WIDTH
+
+if TYPE_CHECKING:
+    from caesura.core.descriptors.descriptor import DescriptorInput
 
 MEASURES = {"log": descriptors.LOG, "biot": descriptors.BIOT, "max": descriptors.MAX}
 """`log`: sqrt(ln²σ1 + ln²σ2) (Hencky); `biot`: sqrt((σ1−1)² + (σ2−1)²); `max`: max(|σ1−1|, |σ2−1|). σ = sqrt(λ)."""
-
-TILE = 1024
-ROUNDING = 2.0**-20
-"""Relative error of the edges of a triangle whose corners were rounded to float32, with room for how they were made."""
 
 
 @dataclass(frozen=True)
@@ -53,6 +54,11 @@ class TriangleStrain:
     measure: int
     scale_invariant: bool
     parts: tuple[Tile, ...]
+
+    @classmethod
+    def from_input(cls, subject: "DescriptorInput") -> "TriangleStrain":
+        """That of the input, which has it already."""
+        return subject.strain
 
     @classmethod
     def of(

@@ -2,5 +2,4 @@
 
 blocks          blocks of frames, and a map over them on threads
 sampled_frames  frames read and checked; which frames stand for all
-buffer_pool     memory that is used again
 """

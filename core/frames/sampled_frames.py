@@ -10,6 +10,17 @@ from caesura.core.errors import InvalidModel
 from caesura.core.frames.blocks import Block
 from caesura.core.kernels.descriptors import REACH, largest_bits
 
+SAMPLE = 2000
+ROUNDING = 2.0**-20
+"""Relative error of an edge whose ends were rounded to float32, with room for how they were made."""
+
+
+def choose_sample_frames(frames: int, most: int = SAMPLE) -> Int[np.ndarray, "sample"]:
+    """At most `most` frames, evenly spaced from the first to the last: they stand for all."""
+    if frames <= most:
+        return np.arange(frames)
+    return np.linspace(0, frames - 1, most).round().astype(np.int64)
+
 
 def read_vertices(animation: Animation, block: Block) -> Float32[np.ndarray, "frames V 3"]:
     """Frames [start, stop). Raises `InvalidModel` with frame and vertex of a NaN, an infinity or what is above 1e15."""

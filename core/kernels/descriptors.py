@@ -90,6 +90,9 @@ def _atanh_squared(y: np.float32) -> np.float32:
     return p * y
 
 
+TILE = 1024
+"""Triangles of a tile."""
+
 WIDTH = 64
 """Frames in a row of strain. A constant, so that the compiler knows how long the loops are and which rows are apart."""
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32, Float64, Int
 
-from caesura.core.descriptors.strain import TILE
 from caesura.core.kernels import descriptors
+from caesura.core.kernels.descriptors import TILE
 from caesura.core.mesh.edges import list_edges
 from caesura.core.mesh.mesh import Mesh
 

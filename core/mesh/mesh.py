@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Float32, Float64, Int, Int32
 
-from caesura.core.descriptors.strain import TILE
 from caesura.core.kernels import descriptors
+from caesura.core.kernels.descriptors import TILE
 
 
 @dataclass(frozen=True)

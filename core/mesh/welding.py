@@ -8,9 +8,7 @@ import numpy as np
 from jaxtyping import Float32, Int
 
 from caesura.core.animation import Animation
-from caesura.core.block_pass.projection import choose_sample_frames
-from caesura.core.descriptors.strain import ROUNDING
-from caesura.core.frames.sampled_frames import read_sampled_frames
+from caesura.core.frames.sampled_frames import ROUNDING, choose_sample_frames, read_sampled_frames
 
 SAMPLED_FRAMES = 8
 """Frames looked at to see whether copies move together."""

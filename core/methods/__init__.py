@@ -1,8 +1,6 @@
-"""The methods: from an analysis to cuts and motions. One file or folder a family, one table of all.
+"""The methods: from an analysis to cuts and motions. One folder a family; `core.registry` lists them.
 
-table           the methods by name
-switching       the default: switching k-means in several views
-sheets          the default on a timeline of clips laid end to end
+switching       the default: switching k-means on windowed features
 joint_entropy   the paper's: key-frames grouped by k-means
 alignment       compared with: aligned cluster analysis in one level and two, spectral clustering
 luo2014         compared with: segments of least dissimilarity

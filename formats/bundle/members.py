@@ -8,9 +8,9 @@ from typing import BinaryIO
 
 from caesura.core.errors import BrokenContainer, InvalidModel, UnsupportedMedia
 from caesura.core.limits import Limits
+from caesura.formats.input_formats import MODEL_SUFFIXES
 from caesura.formats.zip.archive import Archive, check_member, malformed_zip
 
-MODELS = (".gltf", ".glb", ".bvh")
 SHAPES = (".obj", ".ply")
 NUMBER = re.compile(r"\d+")
 
@@ -31,13 +31,13 @@ class ZipMembers(Archive):
     def are_arrays(self) -> bool:
         """Whether it is an NPZ all the same, whose first member is something else, such as a note."""
         names = [name.lower() for name in self.members]
-        return not any(name.endswith((*MODELS, *SHAPES)) for name in names) and any(
+        return not any(name.endswith((*MODEL_SUFFIXES, *SHAPES)) for name in names) and any(
             name.endswith(".npy") for name in names
         )
 
     def model(self) -> str | None:
         """The one glTF, GLB or BVH; None where there are shapes instead. Raises where it is not one, or nothing."""
-        models = [name for name in self.members if name.lower().endswith(MODELS)]
+        models = [name for name in self.members if name.lower().endswith(MODEL_SUFFIXES)]
         if len(models) > 1:
             raise InvalidModel("ambiguous-upload", f"{len(models)} files of the zip are models. Send one at a time.")
         if not models and not self.shapes():

@@ -1,7 +1,6 @@
 """The door for what comes out: an upload and its segmentation in, a file of clips or of key poses out."""
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from mmap import mmap
 
 from caesura.core.animation import Animation
@@ -19,20 +18,13 @@ from caesura.formats.clips.npz_clips import write_npz_clips
 from caesura.formats.clips.take_ranges import gltf_take_ranges
 from caesura.formats.file_type import SIGNATURE_BYTES, detect_file_type
 from caesura.formats.read import find_main_part, read_animation
+from caesura.formats.written_file import WrittenFile
 from caesura.formats.zip.stream_writer import stream_zip
 
 GLB, ZIP = "model/gltf-binary", "application/zip"
 
 Parts = Mapping[str, bytes | memoryview | mmap]
 Scratch = Callable[[int], memoryview]
-
-
-@dataclass(frozen=True)
-class WrittenFile:
-    """A file: its media type, and its content, to be read once, while the upload is still there."""
-
-    media_type: str
-    pieces: Iterator[bytes]
 
 
 def write_clips(parts: Parts, document: SegmentationDocument, options: ClipOptions, scratch: Scratch) -> WrittenFile:

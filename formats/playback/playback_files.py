@@ -9,10 +9,11 @@ import numpy as np
 from caesura.core.analysis import Analysis
 from caesura.core.animation import Animation
 from caesura.core.block_pass.rest_pose import compute_rest_pose
+from caesura.core.descriptors.descriptor import Descriptor, DescriptorInput
 from caesura.core.descriptors.strain import TriangleStrain
-from caesura.core.descriptors.table import DESCRIPTORS, Descriptor, DescriptorInput
 from caesura.core.parameters import Parameters
 from caesura.core.progress import Progress, ignore_progress
+from caesura.core.registry.descriptors import DESCRIPTORS
 from caesura.formats.playback.playable_gltf import write_playable_gltf
 from caesura.formats.playback.strain_blocks import DisplayPatches, choose_display_patches, write_strain_blocks
 from caesura.formats.playback.vertex_blocks import choose_display_mesh, write_vertex_blocks
@@ -71,12 +72,13 @@ def _patches(animation: Animation, analysis: Analysis) -> DisplayPatches | None:
     if len(animation.triangles) == 0 or WITHOUT_STRAIN & {notice.code for notice in analysis.notices}:
         return None
     chosen = Parameters.model_validate(analysis.heavy)
-    if chosen.descriptor not in DESCRIPTORS:  # of pairs of points, which have no place on the surface
+    measured = DESCRIPTORS[chosen.descriptor]
+    if not measured.per_triangle:
         return None
     rest = compute_rest_pose(animation, chosen.rest)
 
     def descriptor(strain: TriangleStrain) -> Descriptor:
-        return DESCRIPTORS[chosen.descriptor](DescriptorInput(animation, rest, strain, chosen))
+        return measured.load()(DescriptorInput(animation, rest, strain, chosen))
 
     return choose_display_patches(
         rest, animation.triangles, animation.frames, chosen.strain, chosen.scale_invariant, descriptor

@@ -13,9 +13,9 @@ import numpy as np
 from jaxtyping import Float32, Int, UInt8
 
 from caesura.core.animation import Animation
+from caesura.core.descriptors.descriptor import Descriptor
 from caesura.core.descriptors.patch_means import PatchMeans
 from caesura.core.descriptors.strain import TriangleStrain
-from caesura.core.descriptors.table import Descriptor
 from caesura.core.frames.blocks import Block, frames_per_block, map_blocks, split_into_blocks
 from caesura.core.mesh.patches import assign_patches
 from caesura.core.progress import Progress, ignore_progress

@@ -3,8 +3,9 @@
 from typing import Any
 
 from caesura.core.parameters import Parameters
+from caesura.formats.exports.table import Export, exports_of
+from caesura.formats.input_formats import READABLE_FORMATS
 from caesura.service.api_description.examples import ANIMATION_ID
-from caesura.service.results.result_formats import RESULT_FORMATS
 
 _BYTES: dict[str, Any] = {"type": "string", "format": "binary"}
 _FORM: dict[str, Any] = {
@@ -18,7 +19,7 @@ _FORM: dict[str, Any] = {
 FILE_BODY: dict[str, Any] = {
     "requestBody": {
         "required": True,
-        "description": "A .glb, .gltf, .bvh, .npz or .zip, judged by its first bytes, or a form of files.",
+        "description": f"A file, judged by its first bytes: {READABLE_FORMATS}. Or a form of files.",
         "content": {"application/octet-stream": {"schema": _BYTES}, "multipart/form-data": {"schema": _FORM}},
     }
 }
@@ -33,33 +34,27 @@ FILE: dict[int | str, dict[str, Any]] = {
     304: {"description": "They are those that the client has."},
 }
 
+
+def _content_of(stem: str) -> dict[str, Any]:
+    """The media types of the exports whose address begins so."""
+    return {export.media_type: _media_type(export) for export in exports_of(stem).values()}
+
+
+def _media_type(export: Export) -> dict[str, Any]:
+    if export.suffix == "json":
+        return {"schema": {"$ref": "#/components/schemas/SegmentationDocument"}}
+    schema = {"type": "string"} if export.is_text else _BYTES
+    return {"schema": schema, "example": export.example} if export.example else {"schema": schema}
+
+
 RESULT: dict[int | str, dict[str, Any]] = {
-    200: {
-        "description": "The result.",
-        "content": {
-            "application/json": {"schema": {"$ref": "#/components/schemas/SegmentationDocument"}},
-            "text/csv": {
-                "schema": {"type": "string"},
-                "example": "name,motion,start,end,start_seconds,end_seconds,confidence,loop,discard\n"
-                "A,0,0,205,0.000000,6.833333,0.91,0,0\n",
-            },
-            "text/vtt": {
-                "schema": {"type": "string"},
-                "example": "WEBVTT\n\n00:00:00.000 --> 00:00:06.833\nA\n",
-            },
-            "text/x-eaf+xml": {"schema": {"type": "string"}},
-            RESULT_FORMATS[2].media_type: {"schema": _BYTES},
-        },
-    },
+    200: {"description": "The result.", "content": _content_of("result")},
     202: {"description": "The file is being made; ask again."},
     304: {"description": "It is the one that the client has."},
 }
 
 PLOT: dict[int | str, dict[str, Any]] = {
-    200: {
-        "description": "The picture.",
-        "content": {"image/svg+xml": {"schema": {"type": "string"}}, "image/png": {"schema": _BYTES}},
-    },
+    200: {"description": "The picture.", "content": _content_of("plot")},
     202: {"description": "The picture is being drawn; ask again."},
     304: {"description": "It is the one that the client has."},
 }

@@ -5,8 +5,8 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from caesura.core.methods.table import METHODS
 from caesura.core.parameters import Parameters
+from caesura.core.registry.methods import METHODS
 
 
 class MethodDocument(BaseModel):

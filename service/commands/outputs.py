@@ -1,7 +1,7 @@
 """What `caesura segment` writes beside what it prints: one file of a form, or all forms of every file in a folder."""
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,66 +11,28 @@ import click
 from caesura.core.document import SegmentationDocument
 from caesura.core.errors import CaesuraError
 from caesura.formats.clips.clip_options import ClipOptions
+from caesura.formats.exports.table import EXPORTS, Export, ExportSource, exports_of
+from caesura.formats.input_formats import INPUT_FORMATS
 from caesura.service.commands.buffers import scratch_buffer
-from caesura.service.results.elan import segments_eaf
-from caesura.service.results.text_formats import frames_csv, plot_svg, segments_csv, segments_vtt
 
 Parts = Mapping[str, memoryview]
-Write = Callable[[Parts, SegmentationDocument, ClipOptions], tuple[str, Iterator[bytes]]]
-"""Gives the suffix of the file and its bytes, piece by piece."""
-
 UNNAMED = "\0"
 """What an option without a name has for a value; no file can be called so."""
 
-
-def _text(suffix: str, written: Callable[[SegmentationDocument], str]) -> Write:
-    return lambda _parts, found, _options: (suffix, iter([written(found).encode()]))
-
-
-def _clips(parts: Parts, found: SegmentationDocument, options: ClipOptions) -> tuple[str, Iterator[bytes]]:
-    from caesura.formats.clips.write import GLB, write_clips
-
-    written = write_clips(parts, found, options, scratch_buffer)
-    return ".clips.glb" if written.media_type == GLB else ".clips.zip", written.pieces
-
-
-def _key_poses(parts: Parts, found: SegmentationDocument, _: ClipOptions) -> tuple[str, Iterator[bytes]]:
-    from caesura.formats.clips.write import write_key_poses
-
-    return ".keyframes.glb", write_key_poses(parts, found, scratch_buffer).pieces
-
-
-def _plot_png(_parts: Parts, found: SegmentationDocument, _options: ClipOptions) -> tuple[str, Iterator[bytes]]:
-    from caesura.core.plot.layout import lay_out_picture
-    from caesura.core.plot.png import render_png
-
-    font = os.environ.get("CAESURA_FONT")
-    return ".png", iter([render_png(lay_out_picture(found), Path(font).read_bytes() if font else None)])
-
-
-OUTPUT_FORMATS: dict[str, tuple[Write, str]] = {
-    "clips": (_clips, "Write the file again with its motions as clips: a GLB, or a zip."),
-    "keyframes": (_key_poses, "Write the file again with its key poses alone, as a GLB."),
-    "csv": (_text(".csv", segments_csv), "Write the segments as CSV."),
-    "frames_csv": (_text(".frames.csv", frames_csv), "Write motion and energy of every frame as CSV."),
-    "vtt": (_text(".vtt", segments_vtt), "Write the segments as WebVTT, for video players."),
-    "eaf": (_text(".eaf", segments_eaf), "Write motions and key-frames as EAF, for ELAN."),
-    "plot": (_text(".svg", plot_svg), "Draw the energy curve over the segments as SVG, for papers."),
-    "plot_png": (_plot_png, "Draw the same as PNG."),
-}
-DOCUMENT = _text(".json", lambda found: found.model_dump_json())
+OUTPUT_FORMATS = {export.option: export for export in EXPORTS if export.option}
+DOCUMENT = exports_of("result")["json"]
 
 
 def output_option_decorators(function: Callable[..., Any]) -> Callable[..., Any]:
     """Add an option for each form; the command receives it as `write_NAME`. With `--out` it needs no name."""
-    for name, (_, text) in reversed(OUTPUT_FORMATS.items()):
+    for name, export in reversed(OUTPUT_FORMATS.items()):
         option = click.option(
             f"--{name.replace('_', '-')}",
             f"write_{name}",
             metavar="[FILE]",
             is_flag=False,
             flag_value=UNNAMED,
-            help=text,
+            help=export.option_help,
         )
         function = option(function)
     return function
@@ -125,17 +87,27 @@ class Outputs:
             self._one(DOCUMENT, parts, found, target, None)
         for form, path in self.forms.items():
             try:
-                self._one(OUTPUT_FORMATS[form][0], parts, found, target, path)
+                self._one(OUTPUT_FORMATS[form], parts, found, target, path)
             except CaesuraError as missing:
                 refused.append(missing)
         if refused:
             raise refused[0]
 
     def _one(
-        self, write: Write, parts: Parts, found: SegmentationDocument, target: Path | None, path: Path | None
+        self, export: Export, parts: Parts, found: SegmentationDocument, target: Path | None, path: Path | None
     ) -> None:
-        suffix, pieces = write(parts, found, self.options)
-        _save(path or (target or Path()).with_name(f"{(target or Path()).name}{suffix}"), pieces)
+        font = os.environ.get("CAESURA_FONT")
+        written = export.write(
+            ExportSource(
+                found,
+                font=lambda: Path(font).read_bytes() if font else None,
+                parts=parts,
+                options=self.options,
+                scratch=scratch_buffer,
+            )
+        )
+        ending = export.file_ending(written.media_type)
+        _save(path or (target or Path()).with_name(f"{(target or Path()).name}{ending}"), written.pieces)
 
 
 def _place(flag: str, path: Path, sources: Sequence[Path], taken: Iterable[Path | None]) -> Path:
@@ -165,7 +137,7 @@ def _is_an_animation(path: Path) -> bool:
     with path.open("rb") as file:
         start = file.read(20)
         if start[:4] != b"glTF":
-            return path.suffix.lower() in {".gltf", ".npz", ".bvh"}
+            return path.suffix.lower() in {known.suffix for known in INPUT_FORMATS.values()} - {".zip", ".glb"}
         return b'"caesura"' not in file.read(int.from_bytes(start[12:16], "little"))
 
 

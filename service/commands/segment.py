@@ -9,6 +9,7 @@ import click
 from caesura.core.document import SegmentationDocument
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
+from caesura.formats.input_formats import READABLE_FORMATS
 from caesura.service.commands import options
 from caesura.service.commands.batch import Batch
 from caesura.service.commands.buffers import map_file, scratch_buffer
@@ -21,7 +22,7 @@ from caesura.service.commands.table import print_table
 FOLDER = click.Path(file_okay=False, path_type=Path)
 
 
-@click.command(cls=Command)
+@click.command(cls=Command, epilog=f"Formats of files: {READABLE_FORMATS}.")
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=ExistingFiles())
 @click.option("--out", metavar="DIR", type=FOLDER, help="Write NAME.json for every FILE, and print a table at the end.")
 @output_option_decorators
@@ -39,7 +40,7 @@ def segment(
     threads: int | None,
     **given: Any,
 ) -> None:
-    """Find the motions in each FILE: a GLB, a glTF, a BVH, an NPZ, or a zip; patterns such as "*.glb" are fine.
+    """Find the motions in each FILE: its format is told by its first bytes; patterns such as "*.glb" are fine.
 
     A .bin among the files is no animation of its own: it is offered to every glTF that names it. With several
     files a bad one does not stop the others; with --json its line is null. The exit code is that of the first

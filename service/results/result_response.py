@@ -1,21 +1,18 @@
 """A finished result in the form that was asked for."""
 
-from collections.abc import Callable
 from contextlib import aclosing
 from dataclasses import dataclass
 
 from anyio import to_thread
 from fastapi import Request, Response
 
-from caesura.core.document import SegmentationDocument
+from caesura.formats.exports.table import Export
 from caesura.service.backend import Backend
 from caesura.service.documents import StatusDocument
 from caesura.service.http.prefer_header import preferred_wait_seconds
 from caesura.service.problems.status_table import Refusal, problem_response
-from caesura.service.results import text_formats
 from caesura.service.results.byte_ranges import StoredFile, cache_headers, is_not_modified, stored_response
-from caesura.service.results.elan import segments_eaf
-from caesura.service.results.result_formats import ResultFormat
+from caesura.service.results.result_formats import export_by_table
 from caesura.service.results.revision_request import revised_document, revision_number
 from caesura.service.segmentations.status_response import ASK_AGAIN, preference_applied, problem_of, status_response
 from caesura.worker.queue.auxiliary_jobs import submit_export
@@ -25,25 +22,12 @@ from caesura.worker.store.blobs import BlobMissing
 
 EXPORT_WAIT_SECONDS = 5
 
-WORKER_MADE_FORMATS = {"npz": "result_response", "png": "plot"}
-"""Forms that a job makes, for want of arrays or of time here, and what their address calls them."""
-
-
-Writer = Callable[[SegmentationDocument], str]
-TEXT_WRITERS: dict[tuple[str, str], Writer] = {
-    ("csv", "segments"): text_formats.segments_csv,
-    ("csv", "frames"): text_formats.frames_csv,
-    ("vtt", "segments"): text_formats.segments_vtt,
-    ("eaf", "segments"): segments_eaf,
-    ("svg", "segments"): text_formats.plot_svg,
-}
-
 
 @dataclass(frozen=True)
 class RequestedResult:
-    """What of a result is asked for: its form, the table of that form, and the revision."""
+    """What of a result is asked for: the file, the table in it, and the revision."""
 
-    form: ResultFormat
+    export: Export
     table: str = "segments"
     revision: str = "0"
 
@@ -57,9 +41,9 @@ async def result_response(
     if refused is not None:
         return refused
     number = revision_number(record, wanted.revision)
-    if wanted.form.suffix in WORKER_MADE_FORMATS:
-        return await _made(backend, request, record, wanted.form, number)
-    return await _text(backend, request, record, wanted, number)
+    if wanted.export.queued:
+        return await _made(backend, request, record, wanted.export, number)
+    return await _text(backend, request, record, export_by_table(wanted.export, wanted.table), number)
 
 
 def unfinished_response(request: Request, record: SegmentationRecord) -> Response | None:
@@ -72,42 +56,38 @@ def unfinished_response(request: Request, record: SegmentationRecord) -> Respons
 
 
 async def _text(
-    backend: Backend, request: Request, record: SegmentationRecord, wanted: RequestedResult, number: int
+    backend: Backend, request: Request, record: SegmentationRecord, export: Export, number: int
 ) -> Response:
     """Written here, from the stored document."""
-    form, table = wanted.form, wanted.table
-    write = TEXT_WRITERS.get((form.suffix, table))
-    if write is None and (form.suffix, table) != ("json", "segments"):
-        raise Refusal("no-such-table", f"{form.suffix} has no table {table!r}; table=frames goes with csv.")
-    tag = f"W/{_tag(record, form.suffix, table, str(number))}"
+    tag = f"W/{_tag(record, export.suffix, export.table, str(number))}"
     headers = {**cache_headers(tag), "Vary": "Accept", **preference_applied(request)}
     if is_not_modified(request, headers["ETag"]):
         return Response(status_code=304, headers=headers)
-    content = await _content(backend, record, write, number)
-    if form.suffix != "json":
-        headers["Content-Disposition"] = f'inline; filename="{record.id}.{form.suffix}"'
-    return Response(content, headers=headers, media_type=form.media_type)
+    content = await _content(backend, record, export, number)
+    if export.suffix != "json":
+        headers["Content-Disposition"] = f'inline; filename="{record.id}.{export.suffix}"'
+    return Response(content, headers=headers, media_type=export.media_type)
 
 
-async def _content(backend: Backend, record: SegmentationRecord, write: Writer | None, number: int) -> str | bytes:
+async def _content(backend: Backend, record: SegmentationRecord, export: Export, number: int) -> str | bytes:
     """The text; the computed document goes out as it is stored, unread."""
-    if write is None and not number:
+    if export.suffix == "json" and not number:
         stored = await backend.records.document(record.id)
         if stored is None:
             raise Refusal("not-found", f"There is no segmentation {record.id}. It may have been deleted.")
         return stored
     document = await revised_document(backend, record, number)
-    return await to_thread.run_sync(write or SegmentationDocument.model_dump_json, document)
+    return await to_thread.run_sync(export.text, document)
 
 
 async def _made(
-    backend: Backend, request: Request, record: SegmentationRecord, form: ResultFormat, number: int
+    backend: Backend, request: Request, record: SegmentationRecord, export: Export, number: int
 ) -> Response:
     """Made of arrays by a job at the first request, then served as stored."""
     query = f"?revision={number}" if number else ""
-    here = f"/v1/segmentations/{record.id}/{WORKER_MADE_FORMATS[form.suffix]}.{form.suffix}{query}"
+    here = f"/v1/segmentations/{record.id}/{export.path}{query}"
     return await result_file_response(
-        backend, request, record, form.suffix + query, here, f"{record.id}.{form.suffix}", form.media_type
+        backend, request, record, export.suffix + query, here, f"{record.id}.{export.suffix}", export.media_type
     )
 
 

@@ -7,7 +7,7 @@ from caesura.core.limits import Limits
 from caesura.core.parameters import ALGORITHM, Parameters
 from caesura.service.api_description.method_schemas import MethodDocument, describe_methods
 from caesura.service.backend import BackendDependency
-from caesura.service.results.result_formats import EXPORTS, ExportDocument
+from caesura.service.results.result_formats import ExportDocument, export_documents
 from caesura.service.segmentations.status_response import status_response
 
 router = APIRouter(prefix="/v1", tags=["about"])
@@ -43,7 +43,7 @@ async def list_methods() -> Response:
 @router.get("/exports", response_model=ExportList)
 async def list_exports() -> Response:
     """The files that are made of a result: where each is, what it is called, and what it is for."""
-    return status_response(ExportList(exports=EXPORTS))
+    return status_response(ExportList(exports=export_documents()))
 
 
 @router.get("/limits", response_model=LimitsDocument)

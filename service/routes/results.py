@@ -11,7 +11,7 @@ from caesura.service.backend import Backend, BackendDependency
 from caesura.service.documents import ViewerDocument
 from caesura.service.problems.status_table import Refusal
 from caesura.service.results.byte_ranges import StoredFile, stored_response
-from caesura.service.results.result_formats import format_by_accept, format_by_suffix, plot_format_by_suffix
+from caesura.service.results.result_formats import export_by_accept, export_by_suffix
 from caesura.service.results.result_response import RequestedResult, result_response
 from caesura.service.results.revision_request import Revision
 from caesura.service.segmentations.status_response import status_response
@@ -32,7 +32,7 @@ async def by_header(
     revision: Revision = "0",
 ) -> Response:
     """The result, in the form that Accept likes best; the segmentation document where anything will do."""
-    wanted = RequestedResult(format_by_accept(request.headers.get("accept", "")), table, revision)
+    wanted = RequestedResult(export_by_accept(request.headers.get("accept", "")), table, revision)
     return await result_response(backend, request, await backend.segmentation(identifier, owner), wanted)
 
 
@@ -47,7 +47,7 @@ async def by_name(
     revision: Revision = "0",
 ) -> Response:
     """The result in the form that the address ends in: json, csv, npz, vtt or eaf."""
-    wanted = RequestedResult(format_by_suffix(suffix), table, revision)
+    wanted = RequestedResult(export_by_suffix("result", suffix), table, revision)
     return await result_response(backend, request, await backend.segmentation(identifier, owner), wanted)
 
 
@@ -56,7 +56,7 @@ async def plot(
     identifier: str, suffix: str, request: Request, backend: BackendDependency, owner: Owner, revision: Revision = "0"
 ) -> Response:
     """The energy curve with key-frames, cuts and coloured segments, as in the paper's figures: svg or png."""
-    wanted = RequestedResult(plot_format_by_suffix(suffix), revision=revision)
+    wanted = RequestedResult(export_by_suffix("plot", suffix), revision=revision)
     return await result_response(backend, request, await backend.segmentation(identifier, owner), wanted)
 
 

@@ -3,8 +3,8 @@
 import time
 from collections.abc import Sequence
 
-from caesura.core.methods.table import METHODS
 from caesura.core.parameters import ALGORITHM, Parameters
+from caesura.core.registry.methods import METHODS
 from caesura.formats.take_selection import select_take
 from caesura.service.backend import Backend
 from caesura.service.problems.status_table import Refusal

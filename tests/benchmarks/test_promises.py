@@ -13,7 +13,7 @@ from benchmarks.peers import NotInstalled, peers
 from benchmarks.sequences import Known
 from caesura.core.analysis import Analysis, Features
 from caesura.core.document import Source
-from caesura.core.methods.table import METHODS
+from caesura.core.registry.methods import METHODS
 
 
 @pytest.mark.parametrize(

@@ -7,9 +7,9 @@ import pytest
 
 from caesura.core.analysis import Analysis
 from caesura.core.errors import InvalidModel, ParameterError
-from caesura.core.methods.table import METHODS
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse, cut, segment
+from caesura.core.registry.methods import METHODS
 from tests import oracles
 from tests.animations import animation, bar, performing_bar, tumbling
 

@@ -104,7 +104,7 @@ def test_the_limit_on_json_holds_for_headers() -> None:
 
 def test_reading_headers_loads_no_numerics() -> None:
     """The web process reads headers, and must stay small."""
-    script = "import sys, core.formats.header; sys.exit(any(m in sys.modules for m in ('numpy', 'numba', 'scipy')))"
+    script = "import sys, caesura.formats.header; sys.exit(any(m in sys.modules for m in ('numpy', 'numba', 'scipy')))"
     subprocess.run([sys.executable, "-c", script], check=True)
 
 

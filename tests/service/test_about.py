@@ -3,7 +3,7 @@
 import pytest
 
 from caesura.core.limits import Limits
-from caesura.core.methods.table import METHODS
+from caesura.core.registry.methods import METHODS
 from tests.service.conftest import UPLOAD_LIMIT
 
 

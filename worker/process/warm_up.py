@@ -14,9 +14,9 @@ from caesura.core.analysis import Analysis
 from caesura.core.animation import Animation, Take
 from caesura.core.errors import InvalidModel
 from caesura.core.limits import Limits
-from caesura.core.methods.table import METHODS
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse, cut
+from caesura.core.registry.methods import METHODS
 from caesura.formats.gltf.json_object import JsonObject
 from caesura.formats.gltf.meshopt.view import MODES, decode_view
 from caesura.formats.gltf.writer import Channel, GlbWriter, Primitive

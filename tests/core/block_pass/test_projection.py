@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
-from caesura.core.block_pass.projection import Projection, choose_sample_frames
+from caesura.core.block_pass.projection import Projection
+from caesura.core.frames.sampled_frames import choose_sample_frames
 
 
 def sample(frames=300, size=90, rank=5):

@@ -5,9 +5,9 @@ import pytest
 
 from caesura.core.animation import Animation, Take
 from caesura.core.block_pass.measured_body import MeasuredBody
-from caesura.core.block_pass.projection import choose_sample_frames
 from caesura.core.block_pass.range_estimate import FRAMES
 from caesura.core.errors import InvalidModel
+from caesura.core.frames.sampled_frames import choose_sample_frames
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse
 from tests import oracles

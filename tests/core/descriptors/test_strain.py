@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from caesura.core.descriptors.strain import TILE, TriangleStrain
+from caesura.core.descriptors.strain import TriangleStrain
+from caesura.core.kernels.descriptors import TILE
 from tests import oracles
 from tests.animations import bar, turned
 

@@ -1,10 +1,6 @@
-"""The descriptors by name: each measures every column of a surface, triangle by triangle, on a block of frames.
+"""What a descriptor is: it measures every column of a body, triangle by triangle, on a block of frames."""
 
-Whatever is chosen, the rest of the method is the same: codes, percentile, joint histogram, energy, key-frames. All but
-the default are imported when asked for: they bring sparse matrices.
-"""
-
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol, runtime_checkable
@@ -13,6 +9,7 @@ import numpy as np
 from jaxtyping import Float32
 
 from caesura.core.animation import Animation
+from caesura.core.descriptors.pair_distances import PairDistances
 from caesura.core.descriptors.strain import TriangleStrain
 from caesura.core.mesh.mesh import Mesh
 from caesura.core.mesh.welding import weld_vertices
@@ -38,7 +35,7 @@ class Descriptor(Protocol):
 
 @dataclass(frozen=True)
 class DescriptorInput:
-    """What is to be measured. `strain` knows which triangles have area and in what order; `mesh` is made when asked."""
+    """What is measured. `strain` knows which triangles have area, and their order; the rest is made when asked."""
 
     animation: Animation
     rest: Float32[np.ndarray, "V 3"]
@@ -51,28 +48,7 @@ class DescriptorInput:
         triangles = self.animation.triangles[self.strain.triangles]
         return Mesh.of(self.rest, triangles, weld_vertices(self.animation, self.rest), self.parameters.scale_invariant)
 
-
-def _geodesic(subject: DescriptorInput) -> Descriptor:
-    from caesura.core.descriptors.geodesic import Geodesic  # noqa: PLC0415
-
-    return Geodesic.of(subject.mesh)
-
-
-def _heat_kernel(subject: DescriptorInput) -> Descriptor:
-    from caesura.core.descriptors.heat_kernel import HeatKernel  # noqa: PLC0415
-
-    return HeatKernel.of(subject.mesh)
-
-
-def _curvature(subject: DescriptorInput) -> Descriptor:
-    from caesura.core.descriptors.curvature import Curvature  # noqa: PLC0415
-
-    return Curvature.of(subject.mesh, subject.parameters.curvature)
-
-
-DESCRIPTORS: dict[str, Callable[[DescriptorInput], Descriptor]] = {
-    "strain": lambda subject: subject.strain,
-    "geodesic": _geodesic,
-    "heat-kernel": _heat_kernel,
-    "curvature": _curvature,
-}
+    @cached_property
+    def pairs(self) -> PairDistances:
+        """Pairs of points that are spread over the rest shape."""
+        return PairDistances.of(self.rest, self.animation.triangles)

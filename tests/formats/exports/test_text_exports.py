@@ -1,7 +1,8 @@
 """Text forms: times as players and spreadsheets read them, names that cannot be taken for anything else."""
 
 from caesura.core.document import Segment, SegmentationDocument, Source
-from caesura.service.results.text_formats import segments_csv, segments_vtt
+from caesura.formats.exports.csv_tables import segments_csv
+from caesura.formats.exports.webvtt import segments_vtt
 
 
 def document(name, start=0.0):

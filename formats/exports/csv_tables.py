@@ -1,12 +1,10 @@
-"""Text forms of a result, written from the stored document: no array is needed, so the web process does it."""
+"""A row for each segment, or for each frame, as CSV."""
 
 import csv
 import io
 from collections.abc import Iterable, Iterator
 
 from caesura.core.document import Segment, SegmentationDocument
-from caesura.core.plot.layout import lay_out_picture
-from caesura.core.plot.svg import render_svg
 
 SEGMENT_COLUMNS = ("name", "motion", "start", "end", "start_seconds", "end_seconds", "confidence", "loop", "discard")
 FRAME_COLUMNS = ("frame", "seconds", "motion", "name", "energy", "key_frame")
@@ -47,16 +45,6 @@ def frames_csv(document: SegmentationDocument) -> str:
     )
 
 
-def segments_vtt(document: SegmentationDocument) -> str:
-    """WebVTT: one cue per segment, as video players and annotation tools read them."""
-    return "WEBVTT\n\n" + "\n".join(map(_cue, document.segments))
-
-
-def plot_svg(document: SegmentationDocument) -> str:
-    """The energy curve over the segments, to be pasted into a paper."""
-    return render_svg(lay_out_picture(document))
-
-
 def _said(segment: Segment) -> tuple[object, ...]:
     return "" if segment.confidence is None else segment.confidence, int(segment.loop), int(segment.discard)
 
@@ -67,19 +55,3 @@ def _csv(columns: Iterable[str], rows: Iterator[tuple[object, ...]]) -> str:
     writer.writerow(columns)
     writer.writerows(rows)
     return out.getvalue()
-
-
-def _cue(segment: Segment) -> str:
-    """A cue must last, so a segment of the last frame alone gets a millisecond."""
-    start, end = (round(max(seconds, 0.0) * 1000) for seconds in (segment.start_seconds, segment.end_seconds))
-    return f"{_clock(start)} --> {_clock(max(end, start + 1))}\n{_plain(segment)}\n"
-
-
-def _plain(segment: Segment) -> str:
-    """A name that cannot be taken for markup or for the next cue."""
-    return " ".join(segment.name.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").split())
-
-
-def _clock(milliseconds: int) -> str:
-    seconds, rest = divmod(milliseconds, 1000)
-    return f"{seconds // 3600:02}:{seconds // 60 % 60:02}:{seconds % 60:02}.{rest:03}"

@@ -6,8 +6,8 @@ from itertools import pairwise
 from xml.etree import ElementTree
 
 from caesura.core.document import Interval, KeyFrame, Segment
-from caesura.service.results.elan import segments_eaf
-from tests.service.test_exports import document
+from caesura.formats.exports.elan import segments_eaf
+from tests.formats.exports.test_text_exports import document
 
 NAME = r"[A-Za-z_][\w.-]*"  # xsd:ID and xsd:IDREF
 TEXT = r"(?s).*"

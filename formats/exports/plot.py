@@ -1,0 +1,19 @@
+"""The energy curve with its key-frames, the cuts, and the segments in colour."""
+
+from caesura.core.document import SegmentationDocument
+from caesura.core.plot.layout import lay_out_picture
+from caesura.core.plot.svg import render_svg
+from caesura.formats.exports.table import ExportSource
+from caesura.formats.written_file import WrittenFile
+
+
+def plot_svg(document: SegmentationDocument) -> str:
+    """As SVG, to be pasted into a paper."""
+    return render_svg(lay_out_picture(document))
+
+
+def plot_png(source: ExportSource) -> WrittenFile:
+    """As PNG."""
+    from caesura.core.plot.png import render_png  # noqa: PLC0415  arrays, which a web process has not
+
+    return WrittenFile("image/png", iter([render_png(lay_out_picture(source.document), source.font())]))
