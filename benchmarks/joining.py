@@ -14,10 +14,10 @@ from jaxtyping import Float, Int
 from caesura.core.animation import Animation, Take
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
+from caesura.formats.file_header import read_header
 from caesura.formats.gltf.animation.sampling import KeyTracks
 from caesura.formats.gltf.posing.nodes import R
 from caesura.formats.gltf.posing.vertices import PosedVertices
-from caesura.formats.header import read_header
 from caesura.formats.read import read_animation
 
 RATE = 30.0
@@ -66,7 +66,7 @@ class JoinedTracks(KeyTracks):
     def poses(self, seconds: Float[np.ndarray, "block"]) -> Float[np.ndarray, "block numbers"]:
         """The poses at frames of the take."""
         frames = np.rint(seconds * RATE).astype(np.int64)
-        out = np.zeros((len(frames), len(self.still)))
+        out = np.zeros((len(frames), len(self.rest_pose)))
         for passage in self.passages:
             here = np.flatnonzero((frames >= passage.first) & (frames < passage.first + len(passage.phase)))
             if len(here):

@@ -9,9 +9,9 @@ from typing import Any, TypeVar
 import numpy as np
 from jaxtyping import Float, Int
 
-from caesura.core.document import Notice, Source
+from caesura.core.segmentation_document import Notice, Source
 
-Made = TypeVar("Made")
+Derived = TypeVar("Derived")
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class Analysis:
     features: tuple[Features, ...]
     strain_scale: float
     notices: tuple[Notice, ...] = ()
-    _made: dict[Any, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _derived_values: dict[Any, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def to_bytes(self) -> bytes:
         """As an NPZ: plain arrays and one JSON member, nothing pickled."""
@@ -88,11 +88,11 @@ class Analysis:
                 notices=tuple(Notice(**n) for n in meta["notices"]),
             )
 
-    def once(self, make: "Callable[[Analysis], Made]") -> Made:
+    def derived(self, make: "Callable[[Analysis], Derived]") -> Derived:
         """`make(self)`, made at the first call and kept: what cuts of one analysis have in common."""
-        if make not in self._made:
-            self._made[make] = make(self)
-        made: Made = self._made[make]
+        if make not in self._derived_values:
+            self._derived_values[make] = make(self)
+        made: Derived = self._derived_values[make]
         return made
 
     def with_notices(self, *notices: Notice) -> "Analysis":

@@ -10,7 +10,6 @@ from caesura.core.block_pass.measured_body import MeasuredBody
 from caesura.core.block_pass.rest_pose import compute_rest_pose
 from caesura.core.block_pass.strain_at_peaks import measure_strain_at_peaks
 from caesura.core.block_pass.vertex_pass import PassResult, run_block_pass
-from caesura.core.document import Notice, Source
 from caesura.core.energy.energy_curve import compute_energy_curve, frames_per_window
 from caesura.core.energy.key_frames import find_local_maxima
 from caesura.core.errors import InvalidModel
@@ -20,6 +19,7 @@ from caesura.core.registry.descriptors import DESCRIPTORS
 from caesura.core.registry.methods import METHODS
 from caesura.core.repetition.repetitions import RepetitionFinder, find_repetitions
 from caesura.core.segmentation import Segmentation, number_by_appearance
+from caesura.core.segmentation_document import Notice, Source
 
 CODES_BYTES = 128 * 2**20
 """Memory for the codes of strains; those of frames that do not fit are computed twice."""
@@ -71,7 +71,7 @@ def analyse(
             peak_strain=measure_strain_at_peaks(animation, body, peaks, scale, threads, progress),
             features=extract_features(
                 take.block_pass.projections,
-                take.described,
+                take.features,
                 (has_mesh and take.has_strain, take.has_pair_changes),
                 parameters.descriptor if has_mesh else "strain",
             ),
@@ -115,7 +115,7 @@ def cut(analysis: Analysis, parameters: Parameters) -> Segmentation:
         transitions=found.transitions,
         candidates=found.candidates,
         notices=analysis.notices + found.notices,
-        repeats=find_repetitions(analysis.once(RepetitionFinder.of), labels),
+        repeats=find_repetitions(analysis.derived(RepetitionFinder.of), labels),
     )
 
 

@@ -32,11 +32,11 @@ def detect_file_type(head: bytes) -> Format:
         if known.begins(head):
             return name
     raise UnsupportedMedia(
-        "unsupported-media-type", f"The file is {_described(head)}. Caesura reads {READABLE_FORMATS}."
+        "unsupported-media-type", f"The file is {_format_name(head)}. Caesura reads {READABLE_FORMATS}."
     )
 
 
-def _described(head: bytes) -> str:
+def _format_name(head: bytes) -> str:
     if not head:
         return "empty"
     if head.removeprefix(codecs.BOM_UTF8).lstrip()[:1] == b"<":

@@ -22,7 +22,7 @@ from caesura.worker.records import content_ids
 from caesura.worker.records.async_records import AsyncRecords
 from caesura.worker.records.connection import connect
 from caesura.worker.records.layout_version import check_layout
-from caesura.worker.records.schema import AnimationRecord, SegmentationRecord
+from caesura.worker.records.record_types import AnimationRecord, SegmentationRecord
 from caesura.worker.store.blobs import Blobs
 from caesura.worker.store.temporary_files import delete_abandoned_files
 
@@ -36,7 +36,7 @@ class Backend:
     jobs: Jobs
     blobs: Blobs
     key_file: KeyFile
-    seats: StreamLimit = field(default_factory=StreamLimit)
+    stream_limit: StreamLimit = field(default_factory=StreamLimit)
     _waits: set[CancelScope] = field(default_factory=set)
 
     @cached_property
@@ -84,7 +84,7 @@ class Backend:
             return record
         ended: SegmentationRecord | None = None
         with self.limited_wait(seconds):
-            ended = await self.records.ended(record.id)
+            ended = await self.records.wait_until_ended(record.id)
         return ended or await self.segmentation(record.id, record.owner)
 
     async def position(self, record: SegmentationRecord) -> int | None:

@@ -27,7 +27,7 @@ TOYS = {
         '        InputFormat(\n            "npz"',
         '        InputFormat("toy", "toy file", lambda head: head[:3] == b"TOY", "toy:header", reader="toy:read"),\n',
     ),
-    "core/document.py": ("    scores: tuple[Score, ...] = ()", "    toy_field: int = 0\n"),
+    "core/segmentation_document.py": ("    scores: tuple[Score, ...] = ()", "    toy_field: int = 0\n"),
     "core/parameters.py": ("    seed: int = _light", '    toy_control: int = _light(3, "a toy", ge=1)\n'),
 }
 """The line that a recipe adds to a file, and what it stands before."""
@@ -48,7 +48,7 @@ from caesura.core.registry.methods import METHODS
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
 from caesura.formats.exports.table import exports_of
-from caesura.formats.header import read_header
+from caesura.formats.file_header import read_header
 from caesura.formats.read import read_animation
 from caesura.service.app import create_app
 from caesura.service.commands.cli import main

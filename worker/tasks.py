@@ -3,15 +3,14 @@
 import time
 from contextlib import suppress
 
-from caesura.core.alternatives import cut_into_other_motion_counts
 from caesura.core.analysis import Analysis
-from caesura.core.document import SegmentationDocument
+from caesura.core.other_motion_counts import cut_into_other_motion_counts
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse, cut
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.playback.playback_files import make_playback
 from caesura.formats.read import read_animation
-from caesura.worker import result_files
-from caesura.worker.alternatives import store_alternative
+from caesura.worker import result_file_writers
 from caesura.worker.process.job_quota import JobQuota
 from caesura.worker.process.thread_count import available_threads
 from caesura.worker.process.warm_up import rehearse_cuts
@@ -19,10 +18,11 @@ from caesura.worker.process.worker_context import stored_analysis, worker_contex
 from caesura.worker.queue.attempt import Attempt, Superseded, run_attempt
 from caesura.worker.queue.auxiliary_jobs import submit_alternatives
 from caesura.worker.records import content_ids
-from caesura.worker.records.schema import AnalysisRecord, AnimationRecord, ViewerRecord
-from caesura.worker.retention.retention import sweep_by_clock
+from caesura.worker.records.record_types import AnalysisRecord, AnimationRecord, ViewerRecord
+from caesura.worker.retention.sweep import sweep_by_clock
 from caesura.worker.store.blobs import BlobMissing, Blobs
 from caesura.worker.store.memory_maps import map_parts, scratch_space
+from caesura.worker.stored_alternatives import store_alternative
 
 DAY = 24 * 3600.0
 
@@ -62,7 +62,7 @@ def run_alternatives(identifier: str) -> None:
 def run_export(identifier: str, form: str) -> None:
     """A file made of a result, for the web process has no arrays."""
     here = worker_context()
-    result_files.make_result_file(here.jobs.records, here.blobs, here.settings, identifier, form)
+    result_file_writers.make_result_file(here.jobs.records, here.blobs, here.settings, identifier, form)
 
 
 def run_sweep() -> None:
@@ -76,7 +76,7 @@ def _analyse(attempt: Attempt) -> None:
     settings, blobs = worker_context().settings, worker_context().blobs
     digest = content_ids.heavy_digest(parameters.heavy(), record.algorithm)
     threads = settings.threads or available_threads()
-    uploaded = _animation(attempt)
+    uploaded = _read_upload(attempt)
     allowance = JobQuota(settings.job_memory_bytes, settings.job_seconds * threads)
     attempt.progress("read", 0.0)
     with map_parts(blobs, uploaded.parts, allowance.extend) as parts:
@@ -90,11 +90,11 @@ def _analyse(attempt: Attempt) -> None:
             strain=None if shown.strain is None else blobs.put(shown.strain, "viewer"),
         )
     made = AnalysisRecord(key=blobs.put(analysis.to_bytes(), "analyses"), viewer=viewer)
-    kept = _keep(attempt, blobs, digest, made)
-    _finish(attempt, kept, analysis, parameters)
+    kept = _store_analysis(attempt, blobs, digest, made)
+    _store_result(attempt, kept, analysis, parameters)
 
 
-def _keep(attempt: Attempt, blobs: Blobs, digest: str, made: AnalysisRecord) -> AnalysisRecord:
+def _store_analysis(attempt: Attempt, blobs: Blobs, digest: str, made: AnalysisRecord) -> AnalysisRecord:
     """Keep the analysis. Where another job made the same one meanwhile, its blobs stay and these go."""
     kept = attempt.records.analyses.add(attempt.record.animation, digest, made)
     if kept != made:
@@ -113,13 +113,13 @@ def _cut(attempt: Attempt) -> None:
     if stored is not None:
         with suppress(BlobMissing):
             analysis = stored_analysis(stored.key)
-            _finish(attempt, stored, analysis, parameters)
+            _store_result(attempt, stored, analysis, parameters)
             return
         attempt.records.analyses.delete(record.animation, digest)
     attempt.jobs.hand_back(record.id, record.token, queue="analyse")
 
 
-def _finish(attempt: Attempt, stored: AnalysisRecord, analysis: Analysis, parameters: Parameters) -> None:
+def _store_result(attempt: Attempt, stored: AnalysisRecord, analysis: Analysis, parameters: Parameters) -> None:
     attempt.progress("cut", 0.0)
     result = cut(analysis, parameters)
     document = result.document(attempt.record.id)
@@ -137,7 +137,7 @@ def _finish(attempt: Attempt, stored: AnalysisRecord, analysis: Analysis, parame
         submit_alternatives(attempt.jobs, attempt.record.id)
 
 
-def _animation(attempt: Attempt) -> AnimationRecord:
+def _read_upload(attempt: Attempt) -> AnimationRecord:
     found = attempt.records.animations.one(attempt.record.animation)
     if found is None or not found.parts:
         raise BlobMissing(attempt.record.animation)

@@ -11,13 +11,13 @@ from caesura.core.descriptors.pair_distances import PairDistances
 from caesura.core.descriptors.pair_strain import PairStrain
 from caesura.core.descriptors.patch_means import PatchMeans
 from caesura.core.descriptors.strain import TriangleStrain
-from caesura.core.document import Notice
 from caesura.core.errors import InvalidModel
 from caesura.core.kernels.descriptors import TILE
 from caesura.core.mesh.patches import assign_patches
 from caesura.core.mesh.triangle_order import order_triangles
 from caesura.core.parameters import Parameters
 from caesura.core.registry.descriptors import DESCRIPTORS
+from caesura.core.segmentation_document import Notice
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class MeasuredBody:
     patches: PatchMeans
     pairs: PairDistances
 
-    def describe(self, vertices: Float32[np.ndarray, "frames V 3"]) -> tuple[np.ndarray, np.ndarray]:
+    def measure_features(self, vertices: Float32[np.ndarray, "frames V 3"]) -> tuple[np.ndarray, np.ndarray]:
         """Patch means of strain (frames, patches) and pair distances (frames, pairs)."""
         means = self.patches.empty(len(vertices))
         if self.patches.patches:

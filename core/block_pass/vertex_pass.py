@@ -14,7 +14,7 @@ from caesura.core.block_pass.quantisation import CODES, Quantisation, find_norma
 from caesura.core.block_pass.range_estimate import RangeEstimate
 from caesura.core.frames.blocks import Block, frames_per_block, map_blocks, split_into_blocks, threads_at_once
 from caesura.core.frames.sampled_frames import ROUNDING
-from caesura.core.kernels.counting import look_up
+from caesura.core.kernels.counting import look_up_bins
 from caesura.core.parameters import Parameters
 from caesura.core.progress import Progress, ignore_progress
 
@@ -26,7 +26,7 @@ STILL_SHARE = 1e-6
 class PassResult:
     """The whole take, measured, on so many threads.
 
-    `largest` is the largest strain, `widest` the largest change of a pair distance.
+    `largest` is the largest strain, `largest_pair_change` the largest change of a pair distance.
     """
 
     block_pass: BlockPass
@@ -35,8 +35,8 @@ class PassResult:
     histogram: Int[np.ndarray, "codes"]
     largest: float
     above_noise: int
-    widest: float
-    described: tuple[np.ndarray, np.ndarray]
+    largest_pair_change: float
+    features: tuple[np.ndarray, np.ndarray]
 
     @property
     def has_strain(self) -> bool:
@@ -51,12 +51,12 @@ class PassResult:
     @property
     def has_pair_changes(self) -> bool:
         """Whether pair distances change by more than rounding."""
-        return self.widest * self.block_pass.body.pairs.size > ROUNDING * self.block_pass.reach
+        return self.largest_pair_change * self.block_pass.body.pairs.size > ROUNDING * self.block_pass.reach
 
     def scale(self, rule: str | float) -> float:
         """The strain that counts as 1; noise has none to count."""
         share = self.share_above_noise if self.has_strain else 0.0
-        return find_normalising_strain(rule, self.block_pass.coding, self.histogram, self.largest, share)
+        return find_normalising_strain(rule, self.block_pass.quantisation, self.histogram, self.largest, share)
 
     def bins(
         self, scale: float, levels: int, progress: Progress = ignore_progress
@@ -66,12 +66,12 @@ class PassResult:
         φ1 = [0, 1/B], φi = ((i−1)/B, i/B]; what is above `scale` is in the last. From the codes where they were
         kept, else from the vertices, drawn once more.
         """
-        bin_of_code = self.block_pass.coding.bins(scale, levels)
+        bin_of_code = self.block_pass.quantisation.bins(scale, levels)
 
         def bins(block: Block) -> np.ndarray:
             codes = self.block_pass.codes(block)
             found = np.empty(codes.shape, np.uint8)
-            look_up(codes, bin_of_code, found)
+            look_up_bins(codes, bin_of_code, found)
             return found
 
         return map_blocks(bins, self.blocks, self.threads, progress=progress, stage="energy", total=len(self.blocks))
@@ -91,7 +91,7 @@ def run_block_pass(
     The codes are kept where all of them fit into `memory_bytes`.
     """
     glance = RangeEstimate.at(animation, body.surface)
-    coding = Quantisation.around(glance.strain)
+    coding = Quantisation.for_largest(glance.strain)
     surveyor = BlockPass(
         animation,
         body,
@@ -111,20 +111,20 @@ def run_block_pass(
         better = _better_quantisation(take, parameters)
         if better is None:
             return take
-        surveyor = replace(surveyor, coding=better, floor=0, histogram=np.zeros(CODES, np.int64))
+        surveyor = replace(surveyor, quantisation=better, floor=0, histogram=np.zeros(CODES, np.int64))
 
 
 def _better_quantisation(take: PassResult, parameters: Parameters) -> Quantisation | None:
     """The coding with which the bins of the take come out right, if its own is not that, or counts from too high."""
-    coding, counts, rule = take.block_pass.coding, take.histogram, parameters.normalize
+    coding, counts, rule = take.block_pass.quantisation, take.histogram, parameters.normalize
     if rule == "p99.9" and take.has_strain:
         if not coding.reaches_percentile(counts):
             return coding.wider()
-        if take.block_pass.floor and not coding.tells_percentile(counts):
+        if take.block_pass.floor and not coding.resolves_percentile(counts):
             return coding
     scale = take.scale(rule)
-    better = Quantisation.around(scale)
-    return None if better == coding or coding.tells_edges(scale, parameters.bins, counts) else better
+    better = Quantisation.for_largest(scale)
+    return None if better == coding or coding.resolves_edges(scale, parameters.bins, counts) else better
 
 
 def _combine(surveyor: BlockPass, blocks: list[Block], threads: int, measured: Iterable[BlockStatistics]) -> PassResult:
@@ -137,6 +137,6 @@ def _combine(surveyor: BlockPass, blocks: list[Block], threads: int, measured: I
         surveyor.histogram,
         max(page.largest for page in pages),
         sum(page.above_noise for page in pages),
-        max(page.widest for page in pages),
-        (np.concatenate([page.described[0] for page in pages]), np.concatenate([page.described[1] for page in pages])),
+        max(page.largest_pair_change for page in pages),
+        (np.concatenate([page.features[0] for page in pages]), np.concatenate([page.features[1] for page in pages])),
     )

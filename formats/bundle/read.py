@@ -9,8 +9,8 @@ from caesura.core.animation import Animation
 from caesura.core.errors import InvalidModel
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
-from caesura.formats.bundle.members import ZipMembers, errors_as_zip
 from caesura.formats.bundle.polygon_mesh import Surface, read_obj, read_ply
+from caesura.formats.bundle.zip_members import ZipMembers, errors_as_zip
 from caesura.formats.notices import Notices
 from caesura.formats.npz.read import inflate_member, verify_checksum, vertex_sequence_from_arrays
 from caesura.formats.vertex_sequence import require_finite
@@ -38,7 +38,7 @@ def read_shapes(
     """
     names = files.shapes()
     limits.check("max_frames", len(names), "Send fewer files")
-    first, faces = _shape(files, names[0], data, limits)
+    first, faces = _read_shape(files, names[0], data, limits)
     if len(names) < 2:
         raise InvalidModel("no-motion", "The zip has one shape; a motion needs two, numbered in their names.")
     notices = Notices()
@@ -47,7 +47,7 @@ def read_shapes(
     limits.check("max_inflated_bytes", size, "Send fewer files")
     stored = np.frombuffer(scratch(size), np.float32).reshape(len(names), len(first), 3)
     for frame, name in enumerate(names):
-        vertices, found = _shape(files, name, data, limits) if frame else (first, faces)
+        vertices, found = _read_shape(files, name, data, limits) if frame else (first, faces)
         if vertices.shape != first.shape or not np.array_equal(found, faces):
             raise InvalidModel(
                 "varying-topology",
@@ -61,7 +61,7 @@ def read_shapes(
     return vertex_sequence_from_arrays(stored, triangles, None, None, parameters, limits, notices)
 
 
-def _shape(files: ZipMembers, name: str, data: memoryview, limits: Limits) -> Surface:
+def _read_shape(files: ZipMembers, name: str, data: memoryview, limits: Limits) -> Surface:
     raw = bytes(read_member(files, name, data, lambda size: memoryview(bytearray(size))))
     read = read_obj if name.lower().endswith(".obj") else read_ply
     try:

@@ -4,9 +4,9 @@ from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from caesura.formats.clips.buffer_references import Range, parts, views_of_others, whole_view
+from caesura.formats.clips.buffer_references import Range, accessor_ranges, views_of_others, whole_view
 from caesura.formats.clips.self_contained_gltf import SelfContainedGltf, byte_ranges_of_view
-from caesura.formats.gltf.document import COMPRESSED
+from caesura.formats.gltf.gltf_document import COMPRESSED
 
 PIECE = 2**20
 
@@ -22,7 +22,7 @@ class BinaryChunk:
 
     def __init__(self, pieces: list[tuple[int, memoryview]], kept: Iterable[Range]) -> None:
         self._pieces, self._new = pieces, list[tuple[int, bytes]]()
-        self._kept = _joined((start - start % ALIGNED, end) for start, end in kept)
+        self._kept = _merge_ranges((start - start % ALIGNED, end) for start, end in kept)
         self._places: list[int] = []
         self.length = 0
         for start, end in self._kept:
@@ -63,7 +63,7 @@ class BinaryChunk:
         yield from self._new
 
 
-def without_unused(file: SelfContainedGltf, opened: set[int]) -> BinaryChunk:
+def drop_unused_bytes(file: SelfContainedGltf, opened: set[int]) -> BinaryChunk:
     """Drop the views that nothing refers to, and of the views `opened` the bytes that no accessor does.
 
     Views and accessors of the JSON are moved with their bytes; none are where an extension of a view may say where
@@ -71,7 +71,7 @@ def without_unused(file: SelfContainedGltf, opened: set[int]) -> BinaryChunk:
     """
     root = file.json
     views: list[dict[str, Any]] = root.get("bufferViews", [])
-    named = [(part, size) for accessor in root.get("accessors", []) for part, size in parts(accessor)]
+    named = [(part, size) for accessor in root.get("accessors", []) for part, size in accessor_ranges(accessor)]
     others = views_of_others(root)
     apart = {
         n for n in opened - others if not {"extensions", "byteStride"} & views[n].keys() and not views[n]["buffer"]
@@ -93,7 +93,7 @@ def without_unused(file: SelfContainedGltf, opened: set[int]) -> BinaryChunk:
         elif number in whole:
             for part in byte_ranges_of_view(view):
                 if part["buffer"] == 0:
-                    _place(part, chunk.moved(part.get("byteOffset", 0)))
+                    _put_part(part, chunk.moved(part.get("byteOffset", 0)))
         else:
             views[number] = dict(UNUSED_VIEW)
     return chunk
@@ -104,18 +104,18 @@ def _shrink(view: dict[str, Any], named: list[tuple[dict[str, Any], int, int]], 
     first = min(begin for _, begin, _ in named)
     start = chunk.moved(first - first % ALIGNED)
     for part, begin, _ in named:
-        _place(part, chunk.moved(begin) - start)
-    _place(view, start)
+        _put_part(part, chunk.moved(begin) - start)
+    _put_part(view, start)
     view["byteLength"] = chunk.moved(max(end for _, _, end in named) - 1) + 1 - start
 
 
-def _place(part: dict[str, Any], offset: int) -> None:
+def _put_part(part: dict[str, Any], offset: int) -> None:
     part["byteOffset"] = offset
     if not offset:
         del part["byteOffset"]
 
 
-def _joined(ranges: Iterable[Range]) -> list[Range]:
+def _merge_ranges(ranges: Iterable[Range]) -> list[Range]:
     """The same bytes as few ranges, in order and apart."""
     joined: list[Range] = []
     for start, end in sorted(ranges):

@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator, Sequence
 
-from caesura.core.document import SegmentationDocument
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.clips.animation_replacement import AnimationReplacement
 from caesura.formats.clips.channel_cut import ChannelPart, cut_channel, extend_to_clip, hold_single_key
-from caesura.formats.clips.channels import ClipTracks, TakeChannel, take_channels
+from caesura.formats.clips.clip_channels import ClipTracks, TakeChannel, take_channels
 from caesura.formats.clips.clip_options import ClipOptions
 from caesura.formats.clips.clip_plan import Clip, plan_clips
 from caesura.formats.clips.clip_source import drop_large_extras
@@ -84,4 +84,4 @@ def _sampler(file: AnimationReplacement, channel: TakeChannel, part: ChannelPart
         more = {"normalized": True} if stored_as_integers else {}
         output = file.array(part.values, layout.type, layout.width, more)
     named = {} if interpolation == "LINEAR" else {"interpolation": interpolation}
-    return {"input": file.times(part.times), "output": output, **named, **channel.more}
+    return {"input": file.times(part.times), "output": output, **named, **channel.sampler_extras}

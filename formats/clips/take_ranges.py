@@ -1,12 +1,12 @@
 """Which frames of a result are of which take: of the one that was cut, or of all of them, one after the other."""
 
-from caesura.core.document import SegmentationDocument
 from caesura.core.parameters import Parameters
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.clips.animation_replacement import AnimationReplacement
 from caesura.formats.clips.clip_plan import TakeRange
 from caesura.formats.frame_rate import count_frames
 from caesura.formats.gltf.animation.channels import read_channels
-from caesura.formats.gltf.animation.take import last_key_seconds
+from caesura.formats.gltf.animation.take_choice import last_key_seconds
 
 ALL = -1
 """The number of the take that is all takes."""
@@ -16,7 +16,7 @@ def gltf_take_ranges(file: AnimationReplacement, document: SegmentationDocument)
     """One for each take that was drawn."""
     parameters = Parameters.model_validate(document.parameters)
     if document.source.take != ALL:
-        return [_one(file, document, parameters)]
+        return [_take_range(file, document, parameters)]
     rate, stretches = document.frame_rate, []
     film = -round(document.source.start_seconds * rate)  # where the take begins among the frames that were drawn
     for take in range(len(file.document.animations)):
@@ -35,7 +35,7 @@ def gltf_take_ranges(file: AnimationReplacement, document: SegmentationDocument)
     return stretches
 
 
-def _one(file: AnimationReplacement, document: SegmentationDocument, parameters: Parameters) -> TakeRange:
+def _take_range(file: AnimationReplacement, document: SegmentationDocument, parameters: Parameters) -> TakeRange:
     take = document.source.take
     channels = read_channels(file.document, file.accessors, file.document.animations[take])
     duration, start = last_key_seconds(file.accessors, channels), document.source.start_seconds

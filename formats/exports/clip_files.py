@@ -1,6 +1,6 @@
 """The uploaded file again: with its motions as clips, or with its key poses alone."""
 
-from caesura.formats.clips.write import write_clips, write_key_poses
+from caesura.formats.clips.write_clips import write_clips, write_key_poses
 from caesura.formats.exports.table import ExportSource
 from caesura.formats.written_file import WrittenFile
 

@@ -1,6 +1,6 @@
 """The whole result as JSON."""
 
-from caesura.core.document import SegmentationDocument
+from caesura.core.segmentation_document import SegmentationDocument
 
 
 def document_json(document: SegmentationDocument) -> str:

@@ -1,8 +1,8 @@
 """The energy curve with its key-frames, the cuts, and the segments in colour."""
 
-from caesura.core.document import SegmentationDocument
 from caesura.core.plot.layout import lay_out_picture
 from caesura.core.plot.svg import render_svg
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.exports.table import ExportSource
 from caesura.formats.written_file import WrittenFile
 

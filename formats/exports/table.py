@@ -10,7 +10,7 @@ from importlib import import_module
 from mmap import mmap
 from typing import Any
 
-from caesura.core.document import SegmentationDocument
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.clips.clip_options import ClipOptions
 from caesura.formats.written_file import WrittenFile
 

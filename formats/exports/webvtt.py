@@ -1,6 +1,6 @@
 """The segments as WebVTT, for video players and annotation tools."""
 
-from caesura.core.document import Segment, SegmentationDocument
+from caesura.core.segmentation_document import Segment, SegmentationDocument
 
 
 def segments_vtt(document: SegmentationDocument) -> str:

@@ -7,11 +7,11 @@ from jaxtyping import Float, Int
 
 from caesura.core.errors import InvalidModel
 from caesura.formats.gltf.animation.channels import morph_targets
-from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.geometry.accessors import Accessors
 from caesura.formats.gltf.geometry.instances import MeshInstances, read_instances
 from caesura.formats.gltf.geometry.primitives import Primitive, PrimitiveHeader, read_primitive, read_primitive_headers
 from caesura.formats.gltf.geometry.skin_weights import SkinWeights
+from caesura.formats.gltf.gltf_document import GltfDocument
 from caesura.formats.gltf.json_object import JsonObject
 from caesura.formats.gltf.posing.nodes import NodeGraph
 from caesura.formats.gltf.posing.skins import IDENTITY, Skin, read_skin
@@ -60,7 +60,7 @@ def read_scene_mesh(
 
     Raises `no-mesh` where they have meshes without a triangle, and whatever is wrong with them.
     """
-    drawn = _drawn(document, accessors, graph, nodes)
+    drawn = _drawn_primitives(document, accessors, graph, nodes)
     if not drawn:
         return None
     if not any(found and instances.count for _, _, found, instances in drawn):
@@ -93,7 +93,7 @@ def joints_as_scene_mesh(nodes: Int[np.ndarray, "V"]) -> SceneMesh:
     )
 
 
-def _drawn(
+def _drawn_primitives(
     document: GltfDocument, accessors: Accessors, graph: NodeGraph, nodes: list[int]
 ) -> list[tuple[int, JsonObject, list[PrimitiveHeader], MeshInstances]]:
     """Every node with a mesh and its primitives, counted after instancing and before anything is decoded."""

@@ -7,7 +7,7 @@ from fastapi.openapi.utils import get_openapi
 from fastapi.routing import APIRoute
 from pydantic import BaseModel, ConfigDict, Field
 
-from caesura.core.document import SegmentationDocument
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.service.api_description.examples import EXAMPLES, PROBLEM
 from caesura.service.problems.status_table import MEDIA_TYPE
 from caesura.service.results.revision_request import RevisionRequest
@@ -38,7 +38,7 @@ class Problem(BaseModel):
     setting: str | None = Field(None, description="the setting that the keeper of the service may change")
 
 
-def describe(app: FastAPI) -> None:
+def install_description(app: FastAPI) -> None:
     """Have `/openapi.json` answer the whole description."""
 
     def openapi() -> dict[str, Any]:

@@ -8,12 +8,12 @@ from typing import Any
 
 import click
 
-from caesura.core.document import SegmentationDocument
 from caesura.core.errors import CaesuraError
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.clips.clip_options import ClipOptions
 from caesura.formats.exports.table import EXPORTS, Export, ExportSource, exports_of
 from caesura.formats.input_formats import INPUT_FORMATS
-from caesura.service.commands.buffers import scratch_buffer
+from caesura.service.commands.mapped_files import scratch_buffer
 
 Parts = Mapping[str, memoryview]
 UNNAMED = "\0"
@@ -70,7 +70,7 @@ class Outputs:
                 raise click.UsageError(
                     f"With --out, {flag} takes no name. Put it after the files, or before an option."
                 )
-            forms[form] = None if given == UNNAMED else _place(flag, Path(given), sources, forms.values())
+            forms[form] = None if given == UNNAMED else _check_output_path(flag, Path(given), sources, forms.values())
         if options.model_fields_set and "clips" not in forms:
             flag = f"--{min(options.model_fields_set).replace('_', '-')}"
             raise click.UsageError(f"{flag} says how clips are made: it needs --clips beside it.")
@@ -110,7 +110,7 @@ class Outputs:
         _save(path or (target or Path()).with_name(f"{(target or Path()).name}{ending}"), written.pieces)
 
 
-def _place(flag: str, path: Path, sources: Sequence[Path], taken: Iterable[Path | None]) -> Path:
+def _check_output_path(flag: str, path: Path, sources: Sequence[Path], taken: Iterable[Path | None]) -> Path:
     """The path, where it can be written and no other form goes there; else `UsageError`, before the long work."""
     if not path.parent.is_dir():
         raise click.UsageError(f"There is no folder '{path.parent}' for {flag}: make it first.")

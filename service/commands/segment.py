@@ -6,18 +6,18 @@ from typing import Any
 
 import click
 
-from caesura.core.document import SegmentationDocument
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.input_formats import READABLE_FORMATS
 from caesura.service.commands import options
 from caesura.service.commands.batch import Batch
-from caesura.service.commands.buffers import map_file, scratch_buffer
-from caesura.service.commands.files import ExistingFiles, output_paths
+from caesura.service.commands.file_arguments import ExistingFiles, output_paths
+from caesura.service.commands.mapped_files import map_file, scratch_buffer
 from caesura.service.commands.outputs import Outputs, output_option_decorators
 from caesura.service.commands.problems import Command, print_problem
 from caesura.service.commands.progress_bar import ProgressBar
-from caesura.service.commands.table import print_table
+from caesura.service.commands.segment_table import print_table
 
 FOLDER = click.Path(file_okay=False, path_type=Path)
 
@@ -57,7 +57,7 @@ def segment(
     for path, target in zip(animations, _targets(animations, out), strict=True):
         with batch.file(path) as outcome:
             parts = {p.name: map_file(p) for p in [path, *(c for c in companions if c != path)]}
-            found = _found(parts, parameters, threads)
+            found = _segment_file(parts, parameters, threads)
             written.write(parts, found, target)
             outcome.found = found
             if as_json or out is None:
@@ -75,7 +75,7 @@ def _targets(animations: list[Path], out: Path | None) -> list[Path] | list[None
     return [None] * len(animations) if out is None else output_paths(animations, out)
 
 
-def _found(parts: Mapping[str, memoryview], parameters: Parameters, threads: int | None) -> SegmentationDocument:
+def _segment_file(parts: Mapping[str, memoryview], parameters: Parameters, threads: int | None) -> SegmentationDocument:
     """Read, analyse and cut one animation. What is heavy is imported here, and what computes only for a good file."""
     from caesura.formats.read import read_animation
 

@@ -31,7 +31,7 @@ def export_by_suffix(stem: str, suffix: str) -> Export:
     """The file of an address that ends in `stem.suffix`."""
     exports = exports_of(stem)
     if suffix not in exports:
-        raise Refusal("not-found", f"There is no {stem}.{suffix[:20]}. There are: {_listed(exports.values())}.")
+        raise Refusal("not-found", f"There is no {stem}.{suffix[:20]}. There are: {_list_formats(exports.values())}.")
     return exports[suffix]
 
 
@@ -47,9 +47,9 @@ def export_by_accept(header: str) -> Export:
     """The form that an Accept header likes best (RFC 9110, section 12.5.1); JSON where anything will do."""
     exports = exports_of("result").values()
     wanted = [_quality(item) for item in header.split(",") if item.strip()] or [("*/*", 1.0)]
-    best = max(exports, key=lambda export: _liking(export, wanted))
-    if _liking(best, wanted) <= 0:
-        raise Refusal("not-acceptable", f"The result does not come as {header}. It comes as: {_listed(exports)}.")
+    best = max(exports, key=lambda export: _match_quality(export, wanted))
+    if _match_quality(best, wanted) <= 0:
+        raise Refusal("not-acceptable", f"The result does not come as {header}. It comes as: {_list_formats(exports)}.")
     return best
 
 
@@ -62,7 +62,7 @@ def _quality(item: str) -> tuple[str, float]:
         return media_type, 0.0
 
 
-def _liking(export: Export, wanted: list[tuple[str, float]]) -> float:
+def _match_quality(export: Export, wanted: list[tuple[str, float]]) -> float:
     """The quality of the most specific item that matches."""
     for pattern in (export.media_type, export.media_type.split("/")[0] + "/*", "*/*"):
         for media_type, quality in wanted:
@@ -71,5 +71,5 @@ def _liking(export: Export, wanted: list[tuple[str, float]]) -> float:
     return 0.0
 
 
-def _listed(exports: Iterable[Export]) -> str:
+def _list_formats(exports: Iterable[Export]) -> str:
     return ", ".join(f".{export.suffix} ({export.media_type})" for export in exports)

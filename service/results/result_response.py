@@ -8,15 +8,15 @@ from fastapi import Request, Response
 
 from caesura.formats.exports.table import Export
 from caesura.service.backend import Backend
-from caesura.service.documents import StatusDocument
 from caesura.service.http.prefer_header import preferred_wait_seconds
 from caesura.service.problems.status_table import Refusal, problem_response
+from caesura.service.response_documents import StatusDocument
 from caesura.service.results.byte_ranges import StoredFile, cache_headers, is_not_modified, stored_response
 from caesura.service.results.result_formats import export_by_table
 from caesura.service.results.revision_request import revised_document, revision_number
 from caesura.service.segmentations.status_response import ASK_AGAIN, preference_applied, problem_of, status_response
 from caesura.worker.queue.auxiliary_jobs import submit_export
-from caesura.worker.records.schema import ExportRecord, SegmentationRecord
+from caesura.worker.records.record_types import ExportRecord, SegmentationRecord
 from caesura.worker.retention.deletion import delete_result_file
 from caesura.worker.store.blobs import BlobMissing
 
@@ -42,7 +42,7 @@ async def result_response(
         return refused
     number = revision_number(record, wanted.revision)
     if wanted.export.queued:
-        return await _made(backend, request, record, wanted.export, number)
+        return await _job_made_response(backend, request, record, wanted.export, number)
     return await _text(backend, request, record, export_by_table(wanted.export, wanted.table), number)
 
 
@@ -80,7 +80,7 @@ async def _content(backend: Backend, record: SegmentationRecord, export: Export,
     return await to_thread.run_sync(export.text, document)
 
 
-async def _made(
+async def _job_made_response(
     backend: Backend, request: Request, record: SegmentationRecord, export: Export, number: int
 ) -> Response:
     """Made of arrays by a job at the first request, then served as stored."""
@@ -121,7 +121,7 @@ async def _export(backend: Backend, identifier: str, form: str, seconds: float) 
     if made is None or made.pending or (made.problem or {}).get("kind") == "worker":
         made = await to_thread.run_sync(submit_export, backend.jobs, identifier, form)
     with backend.limited_wait(seconds):
-        async with aclosing(backend.records.changes(identifier)) as changes:
+        async with aclosing(backend.records.follow_changes(identifier)) as changes:
             async for _ in changes:
                 made = await backend.records.export(identifier, form) or made
                 if not made.pending:

@@ -7,7 +7,7 @@ from caesura.core.revision import check_edits
 from caesura.service.api_description.descriptions import REVISED, REVISION_BODY
 from caesura.service.auth.request_owner import Owner
 from caesura.service.backend import Backend, BackendDependency
-from caesura.service.documents import RevisionDocument, RevisionEntry, RevisionList
+from caesura.service.response_documents import RevisionDocument, RevisionEntry, RevisionList
 from caesura.service.results.byte_ranges import cache_headers, is_not_modified
 from caesura.service.results.result_response import unfinished_response
 from caesura.service.results.revision_request import (
@@ -18,8 +18,8 @@ from caesura.service.results.revision_request import (
     revision_number,
 )
 from caesura.service.segmentations.status_response import status_response
+from caesura.worker.records.record_types import RevisionRecord, SegmentationRecord
 from caesura.worker.records.revisions import Revisions, add_revision
-from caesura.worker.records.schema import RevisionRecord, SegmentationRecord
 
 router = APIRouter(prefix="/v1/segmentations/{identifier}/revisions", tags=["revisions"])
 
@@ -51,7 +51,7 @@ async def revisions(identifier: str, request: Request, backend: BackendDependenc
     refused = unfinished_response(request, record)
     if refused is not None:
         return refused
-    kept = [_computed(record), *await Revisions(backend.records).all(identifier)]
+    kept = [_computed_revision(record), *await Revisions(backend.records).all(identifier)]
     entries = tuple(RevisionEntry.of(identifier, one) for one in kept)
     return status_response(RevisionList(revisions=entries), 200, cache_headers(f'"{kept[-1].number}"'))
 
@@ -70,7 +70,9 @@ async def revision(
     if is_not_modified(request, headers["ETag"]):
         return Response(status_code=304, headers=headers)
     kept = await Revisions(backend.records).one(identifier, number) if number else None
-    return status_response(await _document(backend, record, kept[0] if kept else _computed(record)), 200, headers)
+    return status_response(
+        await _document(backend, record, kept[0] if kept else _computed_revision(record)), 200, headers
+    )
 
 
 async def _document(backend: Backend, record: SegmentationRecord, kept: RevisionRecord) -> RevisionDocument:
@@ -78,5 +80,5 @@ async def _document(backend: Backend, record: SegmentationRecord, kept: Revision
     return RevisionDocument.of(record.id, kept, segments=segments)
 
 
-def _computed(record: SegmentationRecord) -> RevisionRecord:
+def _computed_revision(record: SegmentationRecord) -> RevisionRecord:
     return RevisionRecord(number=0, created=record.created)

@@ -12,18 +12,18 @@ from caesura.service.api_description.descriptions import EVENTS, SUBMISSION, SUB
 from caesura.service.auth.authentication import is_still_admitted
 from caesura.service.auth.request_owner import Owner
 from caesura.service.backend import BackendDependency
-from caesura.service.documents import SegmentationPage, StatusDocument
 from caesura.service.http.json_body import is_json
 from caesura.service.http.paging import Cursor, Limit, decode_cursor, encode_cursor
 from caesura.service.http.prefer_header import preferred_wait_seconds
 from caesura.service.http.stream_limit import stream_client
+from caesura.service.response_documents import SegmentationPage, StatusDocument
 from caesura.service.segmentations.event_stream import counted_stream, event_id, status_events
 from caesura.service.segmentations.segmentation_request import request_from_json, request_from_query
 from caesura.service.segmentations.status_response import preference_applied, status_response, submission_response
 from caesura.service.segmentations.submission import submit_segmentation
 from caesura.service.uploads.registration import register_upload
 from caesura.service.uploads.upload_body import receive_upload
-from caesura.worker.records.schema import SegmentationRecord
+from caesura.worker.records.record_types import SegmentationRecord
 from caesura.worker.retention.deletion import delete_segmentation
 
 router = APIRouter(prefix="/v1/segmentations", tags=["segmentations"])
@@ -64,7 +64,7 @@ async def of_animation(
     """The segmentations of one animation, newest first, without their segments."""
     await backend.animation(animation, owner)
     known = backend.records.segmentations(animation, limit, decode_cursor(cursor))
-    page = [record.with_(segments=()) async for record in known]
+    page = [record.with_changes(segments=()) async for record in known]
     entries = tuple(StatusDocument.of(record).model_copy(update={"segments": None}) for record in page)
     address = f"/v1/segmentations?animation={animation}&limit={limit}&cursor="
     more = address + encode_cursor(page[-1].created) if len(page) == limit else None
@@ -93,9 +93,9 @@ async def events(
     if not record.live and event_id(record) == last_event_id:
         return Response(status_code=204)  # tells an EventSource not to come back
     who = stream_client(request)
-    backend.seats.check(who)
+    backend.stream_limit.check(who)
     stream = status_events(backend, identifier, last_event_id, partial(is_still_admitted, backend, request))
-    seat = backend.seats.taken(who)
+    seat = backend.stream_limit.open_stream(who)
     return StreamingResponse(
         counted_stream(seat, stream), headers={"Cache-Control": "no-store"}, media_type="text/event-stream"
     )

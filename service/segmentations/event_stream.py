@@ -6,8 +6,8 @@ from contextlib import AbstractContextManager, aclosing
 from anyio import current_time
 
 from caesura.service.backend import Backend
-from caesura.service.documents import StatusDocument
-from caesura.worker.records.schema import SegmentationRecord
+from caesura.service.response_documents import StatusDocument
+from caesura.worker.records.record_types import SegmentationRecord
 
 QUIET_SECONDS = 15.0
 
@@ -36,7 +36,7 @@ async def status_events(backend: Backend, identifier: str, last_seen: str, admit
     """
     yield ": caesura\n\n"
     spoke = current_time()
-    async with aclosing(backend.records.changes(identifier)) as changes:
+    async with aclosing(backend.records.follow_changes(identifier)) as changes:
         while True:
             with backend.limited_wait() as patience:
                 record = await anext(changes)

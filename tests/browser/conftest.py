@@ -87,17 +87,17 @@ kept_page = pytest.fixture(tab, scope="module", name="kept_page")
 
 @pytest.fixture(scope="session")
 def smooth(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Our own skinned figure, as a file."""
+    """Our own skinned build_figure, as a file."""
     path = tmp_path_factory.mktemp("files") / "smooth.glb"
-    # In a process of its own: here every array's shape is checked, which the making of a figure need not wait for.
-    code = "import sys; from caesura.samples.figures import figure; sys.stdout.buffer.write(figure('smooth').glb)"
+    # In a process of its own: here every array's shape is checked, which the making of a build_figure need not wait for.
+    code = "import sys; from caesura.samples.sample_figures import build_figure; sys.stdout.buffer.write(build_figure('smooth').glb)"
     path.write_bytes(subprocess.run([sys.executable, "-c", code], check=True, capture_output=True).stdout)
     return path
 
 
 @pytest.fixture(scope="module")
 def own(smooth: Path, tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureRequest) -> Path:
-    """The same figure with its take called otherwise, so another animation: its edits no other module sees."""
+    """The same build_figure with its take called otherwise, so another animation: its edits no other module sees."""
     path = tmp_path_factory.mktemp("files") / "own.glb"
     called = request.module.__name__.rpartition("_")[2][:4].encode()
     path.write_bytes(smooth.read_bytes().replace(b'"take"', b'"%s"' % called, 1))

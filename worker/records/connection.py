@@ -24,7 +24,7 @@ def transact(client: redis.Redis, write: Callable[[Pipeline], Answer], *watched:
     return cast("Answer", client.transaction(cast("Any", write), *watched, value_from_callable=True))
 
 
-def names(values: Iterable[Any]) -> list[str]:
+def decode_names(values: Iterable[Any]) -> list[str]:
     """Redis's values as text; redis-py types them `bytes | str`, but without `decode_responses` they are bytes."""
     return [bytes(value).decode() for value in values]
 

@@ -5,11 +5,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from caesura.core.analysis import Analysis
-from caesura.core.document import Notice
 from caesura.core.methods.sheets.division import CLIP, Division, Timeline
 from caesura.core.methods.sheets.recognition import is_sheet
 from caesura.core.parameters import Parameters
 from caesura.core.segmentation import Cut
+from caesura.core.segmentation_document import Notice
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ def cut_sheet(analysis: Analysis, parameters: Parameters, cut: Cut) -> Cut | Non
 
     What lies between two clips is a transition, and is divided in its middle.
     """
-    sheet = None if parameters.expect == "performance" else analysis.once(Sheet.of)
+    sheet = None if parameters.expect == "performance" else analysis.derived(Sheet.of)
     if sheet is None or not (sheet.recognised or parameters.expect == "sheet"):
         return None
     auto = parameters.motions == "auto"

@@ -3,7 +3,6 @@
 import numpy as np
 
 from caesura.core.analysis import Analysis
-from caesura.core.document import Notice, Score
 from caesura.core.energy.key_frames import extract_key_frames
 from caesura.core.methods.sheets.method import cut_sheet
 from caesura.core.methods.switching.cut_confidence import cut_confidence
@@ -13,6 +12,7 @@ from caesura.core.methods.switching.refinement import Refinement
 from caesura.core.methods.switching.views import Frames, Views
 from caesura.core.parameters import Auto, Parameters
 from caesura.core.segmentation import Cut
+from caesura.core.segmentation_document import Notice, Score
 from caesura.core.single_threaded_blas import single_threaded_blas
 
 
@@ -24,7 +24,7 @@ def switching(analysis: Analysis, parameters: Parameters) -> Cut:
         sheet = cut_sheet(analysis, parameters, Cut(np.zeros(analysis.frames, np.int64), keys))
         if sheet is not None:
             return sheet
-        labellings = analysis.once(_labellings)
+        labellings = analysis.derived(_labellings)
         views = labellings.views
         if not views.names:
             notices = _fewer_motions_notice(parameters.motions, 1)

@@ -7,8 +7,8 @@ from functools import cache
 import numpy as np
 from jaxtyping import Float, Int, Shaped
 
-from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.geometry.buffers import Buffers
+from caesura.formats.gltf.gltf_document import GltfDocument
 from caesura.formats.gltf.json_object import JsonObject
 
 COMPONENTS: dict[int, str] = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
@@ -81,7 +81,7 @@ class Accessors:
         sparse = entry.entry("sparse")
         return values if sparse is None else self._replaced(values, layout, sparse)
 
-    def last(self, layout: AccessorLayout) -> float:
+    def last_scalar(self, layout: AccessorLayout) -> float:
         """The last element of a list of scalars, without reading the others; NaN of an empty list."""
         if layout.count == 0 or "bufferView" not in layout.entry or "sparse" in layout.entry:
             values = self.elements(layout)

@@ -5,7 +5,7 @@ from collections import Counter
 from itertools import pairwise
 from xml.etree import ElementTree
 
-from caesura.core.document import Interval, KeyFrame, Segment
+from caesura.core.segmentation_document import Interval, KeyFrame, Segment
 from caesura.formats.exports.elan import segments_eaf
 from tests.formats.exports.test_text_exports import document
 

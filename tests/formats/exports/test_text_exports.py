@@ -1,6 +1,6 @@
 """Text forms: times as players and spreadsheets read them, names that cannot be taken for anything else."""
 
-from caesura.core.document import Segment, SegmentationDocument, Source
+from caesura.core.segmentation_document import Segment, SegmentationDocument, Source
 from caesura.formats.exports.csv_tables import segments_csv
 from caesura.formats.exports.webvtt import segments_vtt
 

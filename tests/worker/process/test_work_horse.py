@@ -27,27 +27,27 @@ def horse(tmp_path):
 def test_it_is_prepared_and_does_one_job_after_the_other(horse, tmp_path):
     """In a process of its own, which is the same for both."""
     for order in ("first", "second"):
-        assert horse.give(order)
+        assert horse.start_job(order)
         assert horse.wait() == (horse.pid, os.EX_OK, None)
     assert (tmp_path / "prepared").exists()
     assert (tmp_path / "first").read_text() == (tmp_path / "second").read_text() == str(horse.pid)
     assert Path(f"/proc/{horse.pid}/comm").read_text().strip() == READY
-    horse.give("last")
+    horse.start_job("last")
     horse.wait()
 
 
 def test_its_last_job_ends_it_in_order(horse):
     """The exit status is that of a job done."""
-    horse.give("last")
+    horse.start_job("last")
     pid, status, used = horse.wait()
     assert (pid, status) == (horse.pid, os.EX_OK)
     assert used is not None
-    assert not horse.give("more")
+    assert not horse.start_job("more")
 
 
 def test_a_killed_one_is_told_as_killed(horse):
     """With the signal, as for any fork."""
-    horse.give("fault")
+    horse.start_job("fault")
     _, status, _ = horse.wait()
     assert os.WTERMSIG(status) == signal.SIGKILL
 

@@ -14,9 +14,9 @@ from sys import byteorder
 
 from redis.client import Pipeline
 
-from caesura.core.document import Segment, SegmentationDocument
+from caesura.core.segmentation_document import Segment, SegmentationDocument
 from caesura.worker.records import Records, redis_keys
-from caesura.worker.records.schema import SegmentationRecord
+from caesura.worker.records.record_types import SegmentationRecord
 
 
 def store_alternative(records: Records, identifier: str, document: SegmentationDocument) -> bool:
@@ -50,7 +50,7 @@ def restore_alternative(records: Records, wanted: SegmentationRecord, beside: st
     def change(kept: SegmentationRecord) -> SegmentationRecord | None:
         if kept is not wanted and (kept.live or kept.settled):
             return None
-        return kept.with_(
+        return kept.with_changes(
             status="done",
             stage="",
             fraction=1.0,

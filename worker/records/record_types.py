@@ -4,8 +4,8 @@ from typing import Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, TypeAdapter
 
-from caesura.core.document import Segment
 from caesura.core.parameters import Parameters
+from caesura.core.segmentation_document import Segment
 
 Status = Literal["queued", "running", "done", "failed", "cancelled"]
 Queue = Literal["analyse", "cut"]
@@ -156,6 +156,6 @@ class SegmentationRecord(_Record):
         """The parameters as core takes them."""
         return Parameters.model_validate(self.parameters)
 
-    def with_(self, **changes: Any) -> "SegmentationRecord":
+    def with_changes(self, **changes: Any) -> "SegmentationRecord":
         """The same record but for `changes`."""
         return self.model_copy(update=changes)

@@ -9,8 +9,8 @@ import time
 from dataclasses import dataclass, replace
 from urllib.parse import parse_qsl
 
-from caesura.core.document import SegmentationDocument
 from caesura.core.revision import apply_revision
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.clips.clip_options import ClipOptions
 from caesura.formats.exports.table import EXPORTS, Export, ExportSource
 from caesura.formats.written_file import WrittenFile
@@ -19,8 +19,8 @@ from caesura.worker.queue.job_problems import INTERNAL_ERROR, problem_of
 from caesura.worker.queue.queues import TimeLimit
 from caesura.worker.records import Records
 from caesura.worker.records.connection import tolerate_full_disk
-from caesura.worker.records.revisions import edits_of
-from caesura.worker.records.schema import ExportRecord, SegmentationRecord
+from caesura.worker.records.record_types import ExportRecord, SegmentationRecord
+from caesura.worker.records.revisions import read_edits
 from caesura.worker.retention.deletion import delete_oldest_result_files
 from caesura.worker.settings import WorkerSettings
 from caesura.worker.store.blobs import BlobMissing, Blobs
@@ -71,7 +71,7 @@ def make_result_file(records: Records, blobs: Blobs, settings: WorkerSettings, i
     record = records.segmentations.one(identifier)
     document, energy, _ = records.segmentations.result(identifier)
     revision = int(options.pop("revision", "0"))
-    edits = edits_of(records, identifier, revision) if revision else ()
+    edits = read_edits(records, identifier, revision) if revision else ()
     if record is None or document is None or energy is None or edits is None:
         return  # deleted meanwhile
     result = SegmentationDocument.model_validate_json(document)

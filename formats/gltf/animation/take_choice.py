@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 from caesura.core.errors import InvalidModel
 from caesura.formats.gltf.animation.channels import Channel, read_channels
-from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.geometry.accessors import Accessors
+from caesura.formats.gltf.gltf_document import GltfDocument
 from caesura.formats.take_selection import select_take
 
 
@@ -64,4 +64,4 @@ def choose_animation(document: GltfDocument, accessors: Accessors, wanted: str |
 def last_key_seconds(accessors: Accessors, channels: list[Channel]) -> float:
     """Seconds of the last key, which is how long a take is; -1 where nothing moves."""
     inputs = {channel.input.index: channel.input for channel in channels}
-    return max((accessors.last(layout) for layout in inputs.values()), default=-1.0)
+    return max((accessors.last_scalar(layout) for layout in inputs.values()), default=-1.0)
