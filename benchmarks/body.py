@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from benchmarks.acclaim import Acclaim
-from caesura.samples.surface import Limb, Surface, skin
+from caesura.samples.surface import Limb, Surface, polygonise_limbs
 from caesura.samples.weights import heat_weights
 
 CELL = 0.0315  # metres: about 5,700 triangles
@@ -78,7 +78,7 @@ def body(skeleton: Acclaim, sharpness: float = SHARPNESS) -> Body:
     """The body of a CMU skeleton at rest, arms out, legs a little apart; `sharpness` as in `heat_weights`."""
     _, starts = skeleton.pose({}, 1)
     forms = limbs(skeleton, starts[0])
-    surface = skin(forms, CELL)
+    surface = polygonise_limbs(forms, CELL)
     return Body(surface, heat_weights(surface, forms, len(skeleton.bones), sharpness), starts[0])
 
 

@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from caesura.samples.body import body
+from caesura.samples.body import build_body
 from caesura.samples.model import rigid_glb, smooth_glb
 from caesura.samples.motions import PAIRED, Motion
-from caesura.samples.parts import parts
+from caesura.samples.parts import build_parts
 from caesura.samples.repertoire import MOTIONS, STILL, T_POSE
-from caesura.samples.take import RATE, Part, Sample, perform
+from caesura.samples.take import RATE, Part, Sample, perform_take
 
 SECONDS = (3.5, 10.0)  # of a segment
 
@@ -33,8 +33,8 @@ def choreography(seed: int, motions: int | None = None, seconds: tuple[float, fl
         motion = repertoire[name]
         repetitions = max(round(random.uniform(*seconds) / motion.seconds), 1)
         performed.append(Part(motion, motion.ends(repetitions, RATE, random)))
-    take = perform(performed, random)
-    return Sample(smooth_glb(body(), take) if seed % 2 else rigid_glb(parts(), take), take.truth)
+    take = perform_take(performed, random)
+    return Sample(smooth_glb(build_body(), take) if seed % 2 else rigid_glb(build_parts(), take), take.truth)
 
 
 def both_sides() -> dict[str, Motion]:

@@ -11,8 +11,8 @@ from jaxtyping import Float, Int
 from scipy.spatial.transform import Rotation
 
 from caesura.formats.gltf.writer import Channel, GlbWriter, Primitive
-from caesura.samples.surface import Limb, skin
-from caesura.samples.weights import heat_weights, strongest
+from caesura.samples.surface import Limb, polygonise_limbs
+from caesura.samples.weights import heat_weights, strongest_weights
 
 RATE = 30.0
 SECONDS = (0.7, 2.6)  # of one cycle
@@ -119,8 +119,8 @@ def _rigid(writer: GlbWriter, made: Creature) -> list[int]:
 def _smooth(writer: GlbWriter, made: Creature) -> list[int]:
     """One surface around all links, skinned."""
     limbs = made.limbs
-    surface = skin(limbs, CELL)
-    joints, weights = strongest(heat_weights(surface, limbs, len(limbs), SHARPNESS))
+    surface = polygonise_limbs(limbs, CELL)
+    joints, weights = strongest_weights(heat_weights(surface, limbs, len(limbs), SHARPNESS))
     nodes = _nodes(writer, made)
     inverse = np.tile(np.eye(4), (len(nodes), 1, 1))
     inverse[:, :3, 3] = -made.places

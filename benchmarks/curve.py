@@ -75,8 +75,8 @@ class Curve:
 
         def code_and_count() -> None:
             for _ in times:
-                take.block_pass.coding.count(tile, noise[columns], floor, histogram)
-                take.block_pass.coding.write(tile, codes, columns.start)
+                take.block_pass.quantisation.count(tile, noise[columns], floor, histogram)
+                take.block_pass.quantisation.write(tile, codes, columns.start)
 
         def look_up_bins() -> None:
             for _ in take.bins(scale, LEVELS):

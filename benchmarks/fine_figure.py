@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Int
 
-from caesura.samples.body import Body, body
+from caesura.samples.body import Body, build_body
 from caesura.samples.figures import CHOREOGRAPHIES, SEEDS
 from caesura.samples.model import smooth_glb
 from caesura.samples.repertoire import MOTIONS
 from caesura.samples.surface import Surface
-from caesura.samples.take import RATE, Part, Take, perform
-from caesura.samples.weights import strongest
+from caesura.samples.take import RATE, Part, Take, perform_take
+from caesura.samples.weights import strongest_weights
 
 CELL = 0.0178  # metres: a fourth of the triangles wanted; every one is cut into four
 FRAMES = 1_047
@@ -21,9 +21,9 @@ def fine_figure() -> bytes:
     """The GLB. The same bytes at every call."""
     random = np.random.default_rng(SEEDS["smooth"])
     motions = [(MOTIONS[motion], times) for motion, times in CHOREOGRAPHIES["smooth"]]
-    take = perform([Part(motion, motion.ends(times, RATE, random)) for motion, times in motions], random)
+    take = perform_take([Part(motion, motion.ends(times, RATE, random)) for motion, times in motions], random)
     cut = Take(take.rotations[:, :FRAMES], take.places[:FRAMES], take.truth)
-    return smooth_glb(_finer(body(CELL)), cut)
+    return smooth_glb(_finer(build_body(CELL)), cut)
 
 
 def _finer(coarse: Body) -> Body:
@@ -39,7 +39,7 @@ def _finer(coarse: Body) -> Body:
 
     weights = np.zeros((len(coarse.joints), coarse.joints.max() + 1))
     np.add.at(weights, (np.arange(len(weights))[:, None], coarse.joints), coarse.weights)
-    joints, kept = strongest(refined(weights))
+    joints, kept = strongest_weights(refined(weights))
     surface = Surface(refined(coarse.surface.vertices), corners, refined(coarse.surface.normals))
     return replace(coarse, surface=surface, joints=joints, weights=kept, colours=refined(coarse.colours))
 

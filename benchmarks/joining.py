@@ -66,7 +66,7 @@ class JoinedTracks(KeyTracks):
     def poses(self, seconds: Float[np.ndarray, "block"]) -> Float[np.ndarray, "block numbers"]:
         """The poses at frames of the take."""
         frames = np.rint(seconds * RATE).astype(np.int64)
-        out = np.zeros((len(frames), len(self.still)))
+        out = np.zeros((len(frames), len(self.rest_pose)))
         for passage in self.passages:
             here = np.flatnonzero((frames >= passage.first) & (frames < passage.first + len(passage.phase)))
             if len(here):

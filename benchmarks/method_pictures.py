@@ -22,7 +22,7 @@ from caesura.core.methods.switching.switching_k_means import run_switching_k_mea
 from caesura.core.methods.switching.windowed_signal import DescriptorWindows
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse, cut
-from caesura.samples.figures import figure
+from caesura.samples.figures import build_figure
 from caesura.samples.take import Truth
 
 WIDTH, LEFT, BAR = 860, 150, 24  # pixels
@@ -33,7 +33,7 @@ LEVELS = 10
 
 def main(folder: Path) -> None:
     """Write the four pictures."""
-    sample = figure("smooth")
+    sample = build_figure("smooth")
     take = open_animation(sample.glb)
     motions = len({label for label, _, _ in sample.truth.segments})
     parameters = Parameters(motions=motions)

@@ -21,10 +21,10 @@ from benchmarks.processes import service
 from benchmarks.report import write_section
 from benchmarks.session import DOCS, SOFTWARE_WEBGL
 from caesura.api import open_animation
-from caesura.samples.body import body
+from caesura.samples.body import build_body
 from caesura.samples.model import smooth_glb
-from caesura.samples.session import long_session, schedule
-from caesura.samples.take import perform
+from caesura.samples.session import long_session, plan_session
+from caesura.samples.take import perform_take
 from caesura.service.commands.client import Client
 
 FRAMES = 1000
@@ -58,7 +58,7 @@ def main() -> int:
 
 def _measured(frames: int) -> list[Row]:
     random = np.random.default_rng(SEED)
-    glb = smooth_glb(body(CELL), perform(schedule(FRAMES, random), random))
+    glb = smooth_glb(build_body(CELL), perform_take(plan_session(FRAMES, random), random))
     session = long_session(frames)
     chromium = shutil.which("chromium")
     if chromium is None:

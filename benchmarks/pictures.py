@@ -10,7 +10,7 @@ from playwright.sync_api import Browser, FilePayload, Page, expect, sync_playwri
 
 from benchmarks.processes import service
 from benchmarks.session import SOFTWARE_WEBGL
-from caesura.samples.figures import figure
+from caesura.samples.figures import build_figure
 from caesura.samples.session import long_session
 from caesura.service.commands.client import Client
 
@@ -24,7 +24,7 @@ PATIENCE_MS = 90_000
 def main() -> None:
     """Take all pictures."""
     with service() as running, Client(running.url) as client, sync_playwright() as playwright:
-        short = client.segment(io.BytesIO(figure("smooth").glb), "performance.glb", {}).id
+        short = client.segment(io.BytesIO(build_figure("smooth").glb), "performance.glb", {}).id
         long = client.segment(io.BytesIO(long_session(SESSION).glb), "session.glb", {}).id
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
         picture = _Pictures(browser, running.url)

@@ -20,7 +20,7 @@ from caesura.core.agreement import cut_frames
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import cut
 from caesura.core.repetition.repetitions import RepetitionFinder, find_repetitions
-from caesura.samples.figures import FIGURES, figure
+from caesura.samples.figures import FIGURES, build_figure
 
 FIRST_SEED = 901
 TOLERANCE_SECONDS = 0.5
@@ -32,7 +32,7 @@ Right = tuple[int, int]  # segments counted right, of so many
 
 def on_true_cuts(known: Known) -> Right:
     """Segments whose repetitions are counted right."""
-    found = find_repetitions(known.analysis.once(RepetitionFinder.of), known.truth)
+    found = find_repetitions(known.analysis.derived(RepetitionFinder.of), known.truth)
     return sum(len(r) == true for r, true in zip(found, known.repeats, strict=True)), len(known.repeats)
 
 
@@ -56,7 +56,7 @@ def _bounds(labels: Int[np.ndarray, "frames"]) -> list[tuple[int, int]]:
 
 def groups(count: int) -> Iterator[tuple[str, list[Known]]]:
     """The takes by kind."""
-    yield "the sample figures", [Known.of_sample(name, "", figure(name)) for name in FIGURES]
+    yield "the sample figures", [Known.of_sample(name, "", build_figure(name)) for name in FIGURES]
     kept = list(islice(kept_back(FIRST_SEED), 2 * count))
     yield "figures, kept back", [known for known in kept if known.name.startswith("figures")]
     yield "creatures, kept back", [known for known in kept if known.name.startswith("creature")]

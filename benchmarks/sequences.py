@@ -21,7 +21,7 @@ from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse
 from caesura.formats.read import read_animation
-from caesura.samples.figures import FIGURES, figure
+from caesura.samples.figures import FIGURES, build_figure
 from caesura.samples.take import Sample
 
 DEVELOPMENT = frozenset({"fox_hard_0", "godotman_hard_0", "figure smooth", "figure rigid", "86_09"})
@@ -72,7 +72,7 @@ def sequences(folder: Path | None, cmu: Path | None, *, figures: bool, held_back
         name = model.stem
         yield Known(name, "development" if name in DEVELOPMENT else "shared", analysis, truth)
     for name in FIGURES if figures else ():
-        yield Known.of_sample(f"figure {name}", "development", figure(name), threads)
+        yield Known.of_sample(f"figure {name}", "development", build_figure(name), threads)
     yield from islice(kept_back(HELD_BACK, threads), held_back)
 
 

@@ -20,7 +20,7 @@ from caesura.formats.npz.read import check_triangles, vertex_sequence_from_array
 from caesura.formats.read import read_animation
 
 Bytes = bytes | bytearray | memoryview | mmap
-READING = ("take", "fps", "start", "end", "trim")
+READING_PARAMETERS = ("take", "fps", "start", "end", "trim")
 """Parameters that say which frames of a file are read."""
 
 
@@ -77,7 +77,7 @@ def open_animation(
     """
     chosen = Parameters.parse(parameters)
     if isinstance(source, Animation):
-        _refuse_reading(parameters)
+        _refuse_reading_parameters(parameters)
         return source
     if isinstance(source, bytes | bytearray | memoryview | mmap):
         source = {"": source}
@@ -103,22 +103,22 @@ def _of_arrays(
     if not (np.isfinite(frame_rate) and frame_rate > 0):
         raise ParameterError("invalid-frame-rate", f"The frame rate is {frame_rate:g}; frames per second are expected.")
     notices = Notices()
-    faces = _triangles(triangles, vertices.shape[1], notices)
+    faces = _as_triangles(triangles, vertices.shape[1], notices)
     shape = None if rest_shape is None else np.asarray(rest_shape, np.float32)
     if shape is not None and (shape.shape != vertices.shape[1:] or not np.isfinite(shape).all()):
         raise InvalidModel("wrong-shape", f"The rest shape is one finite point for each vertex: {vertices.shape[1:]}.")
     return vertex_sequence_from_arrays(vertices, faces, shape, float(frame_rate), chosen, Limits.none(), notices)
 
 
-def _triangles(given: ArrayLike | None, vertices: int, notices: Notices) -> np.ndarray:
+def _as_triangles(given: ArrayLike | None, vertices: int, notices: Notices) -> np.ndarray:
     faces = np.zeros((0, 3), np.int64) if given is None else np.asarray(given)
     if faces.ndim != 2 or faces.shape[1] != 3 or faces.dtype.kind not in "iuf":
         raise InvalidModel("wrong-shape", f"Triangles are whole numbers of shape (T, 3); these are {faces.shape}.")
     return check_triangles(faces, vertices, notices)
 
 
-def _refuse_reading(parameters: Mapping[str, Any]) -> None:
-    for name in READING:
+def _refuse_reading_parameters(parameters: Mapping[str, Any]) -> None:
+    for name in READING_PARAMETERS:
         if name in parameters:
             detail = f"{name} says what is read of a file or of arrays; this animation is read already."
             raise ParameterError("invalid-parameter", detail, parameter=name)

@@ -11,7 +11,7 @@ from jaxtyping import Float, Int
 
 from caesura.core.document import Notice, Source
 
-Made = TypeVar("Made")
+Derived = TypeVar("Derived")
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class Analysis:
     features: tuple[Features, ...]
     strain_scale: float
     notices: tuple[Notice, ...] = ()
-    _made: dict[Any, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _derived_values: dict[Any, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def to_bytes(self) -> bytes:
         """As an NPZ: plain arrays and one JSON member, nothing pickled."""
@@ -88,12 +88,12 @@ class Analysis:
                 notices=tuple(Notice(**n) for n in meta["notices"]),
             )
 
-    def once(self, make: "Callable[[Analysis], Made]") -> Made:
-        """`make(self)`, made at the first call and kept: what cuts of one analysis have in common."""
-        if make not in self._made:
-            self._made[make] = make(self)
-        made: Made = self._made[make]
-        return made
+    def derived(self, derive: "Callable[[Analysis], Derived]") -> Derived:
+        """The value `derive(self)`, computed at the first call and stored for all cuts of this analysis."""
+        if derive not in self._derived_values:
+            self._derived_values[derive] = derive(self)
+        value: Derived = self._derived_values[derive]
+        return value
 
     def with_notices(self, *notices: Notice) -> "Analysis":
         """The same analysis, saying more."""

@@ -6,7 +6,7 @@ from caesura.core.errors import LimitExceeded
 
 UNLIMITED = 2**62
 
-MOST_TOLD = 1e300
+LARGEST_SHOWN = 1e300
 """What a refusal says of anything larger: JSON has no infinity."""
 
 
@@ -43,7 +43,9 @@ class Limits(BaseModel):
         limit = getattr(self, name)
         if actual <= limit:
             return
-        actual = min(MOST_TOLD, actual)  # in this order: also of what is infinite, no number, or an int of 400 digits
+        actual = min(
+            LARGEST_SHOWN, actual
+        )  # in this order: also of what is infinite, no number, or an int of 400 digits
         what = type(self).model_fields[name].description
         setting = f"CAESURA_{name.upper()}"
         sentence = f"{actual:g} {what} are over the limit of {limit:g}. "

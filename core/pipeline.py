@@ -70,7 +70,7 @@ def analyse(
             peak_strain=measure_strain_at_peaks(animation, body, peaks, scale, threads, progress),
             features=extract_features(
                 take.block_pass.projections,
-                take.described,
+                take.features,
                 (has_mesh and take.has_strain, take.has_pair_changes),
                 parameters.descriptor if has_mesh else "strain",
             ),
@@ -111,7 +111,7 @@ def cut(analysis: Analysis, parameters: Parameters) -> Segmentation:
         confidence=np.ones(changes) if found.confidence is None else found.confidence,
         scores=found.scores,
         notices=analysis.notices + found.notices,
-        repeats=find_repetitions(analysis.once(RepetitionFinder.of), labels),
+        repeats=find_repetitions(analysis.derived(RepetitionFinder.of), labels),
     )
 
 

@@ -54,7 +54,7 @@ def apply_revision(document: SegmentationDocument, number: int, edits: Sequence[
             "revision": number,
             "motions": len({edit.motion for edit in edits}),
             "segments": segments,
-            "key_frames": tuple(_recompute(document.key_frames, segments)),
+            "key_frames": tuple(_assign_key_frames(document.key_frames, segments)),
         }
     )
 
@@ -68,14 +68,14 @@ def _revised_segment(document: SegmentationDocument, edit: Edit, confidence: flo
         end_seconds=begin + min(edit.end, document.frames - 1) / rate,
         motion=edit.motion,
         name=edit.name or motion_name(edit.motion),
-        repeats=_repeats(document.segments, edit),
+        repeats=_kept_repeats(document.segments, edit),
         confidence=confidence,
         loop=edit.loop,
         discard=edit.discard,
     )
 
 
-def _repeats(before: Iterable[Segment], edit: Edit) -> tuple[Interval, ...]:
+def _kept_repeats(before: Iterable[Segment], edit: Edit) -> tuple[Interval, ...]:
     """Those of the segment that it was cut from or stretched from; none where several have become one."""
     within = [s for s in before if edit.start <= s.start and s.end <= edit.end]
     touched = within or [s for s in before if s.start < edit.end and edit.start < s.end]
@@ -87,7 +87,7 @@ def _repeats(before: Iterable[Segment], edit: Edit) -> tuple[Interval, ...]:
     return tuple(Interval(start=a, end=b) for a, b in pairwise(bounds))
 
 
-def _recompute(keys: Iterable[KeyFrame], segments: Sequence[Segment]) -> Iterable[KeyFrame]:
+def _assign_key_frames(keys: Iterable[KeyFrame], segments: Sequence[Segment]) -> Iterable[KeyFrame]:
     """Key-frames and segments both come in order, so one walk finds each key-frame's segment."""
     place = 0
     for key in keys:
@@ -101,14 +101,14 @@ def _check_tiling(edits: Sequence[Edit], frames: int) -> None:
     for number, edit in enumerate(edits):
         if edit.start != at:
             what = "overlaps the one before" if edit.start < at else "leaves frames out before it"
-            _refuse(
+            _invalid_edit(
                 f"Segment {number} begins at frame {edit.start} and {what}: it must begin at {at}.", number, "start"
             )
         if edit.end <= edit.start:
-            _refuse(f"Segment {number} ends at frame {edit.end}: it must have a frame at least.", number, "end")
+            _invalid_edit(f"Segment {number} ends at frame {edit.end}: it must have a frame at least.", number, "end")
         at = edit.end
         if at > frames:
-            _refuse(f"Segment {number} ends at frame {at}, but the take has {frames} frames.", number, "end")
+            _invalid_edit(f"Segment {number} ends at frame {at}, but the take has {frames} frames.", number, "end")
     if at != frames:
         detail = f"The segments end at frame {at}, but the take has {frames} frames: they must reach its end."
         raise ParameterError(
@@ -126,10 +126,10 @@ def _names(edits: Sequence[Edit]) -> dict[int, str]:
         _check_name(edit.name, number)
         if named.setdefault(edit.motion, edit.name) != edit.name:
             detail = f"Motion {edit.motion} is called {named[edit.motion]!r} and {edit.name!r}. Give it one name."
-            _refuse(detail, number, "name")
+            _invalid_edit(detail, number, "name")
         if whose.setdefault(edit.name, edit.motion) != edit.motion:
             both = f"Motions {whose[edit.name]} and {edit.motion} are both called {edit.name!r}."
-            _refuse(f"{both} Make them one motion, or name one anew.", number, "name")
+            _invalid_edit(f"{both} Make them one motion, or name one anew.", number, "name")
     letters = (letter for letter in map(motion_name, range(2 * len(edits))) if letter not in whose)
     return {motion: named.get(motion) or next(letters) for motion in dict.fromkeys(edit.motion for edit in edits)}
 
@@ -137,17 +137,17 @@ def _names(edits: Sequence[Edit]) -> dict[int, str]:
 def _check_name(name: str, number: int) -> None:
     """A name that can be shown, typed and put into any file: a line of text that no spreadsheet takes for a formula."""
     if not name.strip(JOINERS) or name != name.strip():
-        _refuse(f"The name of segment {number} is empty, or begins or ends with a space.", number, "name")
+        _invalid_edit(f"The name of segment {number} is empty, or begins or ends with a space.", number, "name")
     if len(name) > LONGEST_NAME:
-        _refuse(f"The name of segment {number} is longer than {LONGEST_NAME} letters.", number, "name")
+        _invalid_edit(f"The name of segment {number} is longer than {LONGEST_NAME} letters.", number, "name")
     odd = next((letter for letter in name if not letter.isprintable() and letter not in JOINERS), None)
     if odd is not None:
-        _refuse(f"The name of segment {number} holds U+{ord(odd):04X}, which does not print.", number, "name")
+        _invalid_edit(f"The name of segment {number} holds U+{ord(odd):04X}, which does not print.", number, "name")
     if normalize("NFKC", name[0])[0] in "=+-@":
-        _refuse(
+        _invalid_edit(
             f"The name of segment {number} begins with {name[0]}: spreadsheets take that for a formula.", number, "name"
         )
 
 
-def _refuse(detail: str, number: int, member: str) -> None:
+def _invalid_edit(detail: str, number: int, member: str) -> None:
     raise ParameterError("invalid-segments", detail, pointer=f"/segments/{number}/{member}")

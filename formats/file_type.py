@@ -35,24 +35,24 @@ def detect_file_type(head: bytes) -> Format:
     if head.startswith(b"glTF"):
         return "glb"
     if head.startswith(b"PK"):
-        return "zip" if _begins_with_a_file(head) else "npz"
+        return "zip" if _first_member_is_no_array(head) else "npz"
     text = head.removeprefix(codecs.BOM_UTF8).lstrip(b" \t\r\n")
     if text.startswith((b"{", b"[")) or head.startswith(WIDE):
         return "gltf"
     if text.startswith(b"HIERARCHY"):
         return "bvh"
     raise UnsupportedMedia(
-        "unsupported-media-type", f"The file is {_described(head, text)}. Caesura reads {READABLE_FORMATS}."
+        "unsupported-media-type", f"The file is {_format_name(head, text)}. Caesura reads {READABLE_FORMATS}."
     )
 
 
-def _begins_with_a_file(head: bytes) -> bool:
+def _first_member_is_no_array(head: bytes) -> bool:
     """Whether the first member of a zip is something else than an array."""
     name = head[30 : 30 + int.from_bytes(head[26:28], "little")]
     return head.startswith(b"PK\3\4") and bool(name) and not name.endswith(b".npy")
 
 
-def _described(head: bytes, text: bytes) -> str:
+def _format_name(head: bytes, text: bytes) -> str:
     if not head:
         return "empty"
     if text[:1] == b"<":

@@ -42,23 +42,23 @@ def estimate_key_rate(times: Sequence[float]) -> float | None:
 
 
 def _rate_of_sparse_keys(times: Sequence[float]) -> float | None:
-    missed = {rate: max(_off_frames((time - times[0]) * rate) for time in times) for rate in KNOWN}
+    missed = {rate: max(_distance_from_frames((time - times[0]) * rate) for time in times) for rate in KNOWN}
     # 23.976 and 24 differ by less than a frame in a short clip: the one that fits better stands for both.
     fits = [
         rate
         for rate in KNOWN
-        if missed[rate] <= WHOLE and all(missed[rate] <= missed[other] for other in KNOWN if _alike(rate, other))
+        if missed[rate] <= WHOLE and all(missed[rate] <= missed[other] for other in KNOWN if _rates_agree(rate, other))
     ]
     # Keys at every half second are on frames of 24, 25 and 30 alike: that tells nothing.
     basic = [rate for rate in fits if rate <= ASSUMED]
     return fits[0] if fits and len(basic) <= 1 else None
 
 
-def _off_frames(frames: float) -> float:
+def _distance_from_frames(frames: float) -> float:
     return abs(frames - round(frames))
 
 
-def _alike(rate: float, other: float) -> bool:
+def _rates_agree(rate: float, other: float) -> bool:
     return abs(rate - other) <= 0.002 * rate
 
 

@@ -115,11 +115,11 @@ def _zip_header(file: BinaryIO, name: str, limits: Limits) -> Header:
         data = inner.read(2 * MOST_JSON)
     if detect_file_type(data[:SIGNATURE_BYTES]) in {"zip", "npz"}:
         raise refuse_nested_archive(model)
-    found = read_header(_Beginning(data, files.members[model].file_size), name, limits)
+    found = read_header(_FileHead(data, files.members[model].file_size), name, limits)
     return Header("zip", name, found.takes, found.vertices, found.triangles)
 
 
-class _Beginning(io.BytesIO):
+class _FileHead(io.BytesIO):
     """The beginning of a file of `size` bytes: what lies behind it is as if it could not be read."""
 
     def __init__(self, data: bytes, size: int) -> None:

@@ -45,12 +45,12 @@ def pair_mesh_and_motion(first: memoryview, second: memoryview, limits: Limits) 
 
 def _merge_animation(mesh: Container, skeleton: Container) -> MeshMotionPair:
     parts = {BINARY[name]: found.binary for name, found in (("mesh", mesh), ("skeleton", skeleton)) if found.binary}
-    merged = _plain_name(mesh.root, BINARY["mesh"] if mesh.is_glb else None)
-    moving = _plain_name(skeleton.root, BINARY["skeleton"] if skeleton.is_glb else None)
+    merged = _name_binary_chunk(mesh.root, BINARY["mesh"] if mesh.is_glb else None)
+    moving = _name_binary_chunk(skeleton.root, BINARY["skeleton"] if skeleton.is_glb else None)
     counts = {name: len(mesh.root.entries(name)) for name in LISTS}
     for name in LISTS:
         skeleton.root.entries(name)  # objects, or refused
-        merged[name] = [*merged.get(name, []), *(_shifted(part, counts) for part in moving.get(name, []))]
+        merged[name] = [*merged.get(name, []), *(_shift_indices(part, counts) for part in moving.get(name, []))]
     merged["animations"], matched, lost = _animations(mesh.root, skeleton.root, moving, counts["accessors"])
     merged["extensionsRequired"] = [
         name for found in (mesh, skeleton) for name in found.root.values("extensionsRequired")
@@ -67,7 +67,7 @@ def _has_mesh_only(mesh: JsonObject, skeleton: JsonObject) -> bool:
     return bool(mesh.values("meshes")) and bool(skeleton.values("animations")) and not both
 
 
-def _plain_name(root: JsonObject, binary: str | None) -> dict[str, Any]:
+def _name_binary_chunk(root: JsonObject, binary: str | None) -> dict[str, Any]:
     """The JSON, the binary chunk of a GLB called by a name."""
     value = copy.deepcopy(root.value)
     root.entries("buffers")
@@ -76,14 +76,14 @@ def _plain_name(root: JsonObject, binary: str | None) -> dict[str, Any]:
     return value
 
 
-def _shifted(part: Any, counts: dict[str, int]) -> Any:
+def _shift_indices(part: Any, counts: dict[str, int]) -> Any:
     """The same with its places in lists moved behind those of the mesh, wherever they stand in it."""
     if isinstance(part, dict):
         moves = {"buffer": counts["buffers"], "bufferView": counts["bufferViews"]}
         return {
             name: value + moves[name]
             if name in moves and type(value) is int and value >= 0
-            else _shifted(value, counts)
+            else _shift_indices(value, counts)
             for name, value in part.items()
         }
     return part

@@ -18,7 +18,7 @@ class Notices:
         self._first.setdefault(code, detail)
         self._count[code] = self._count.get(code, 0) + 1
 
-    def told(self) -> tuple[Notice, ...]:
+    def in_order(self) -> tuple[Notice, ...]:
         """The notices in the order in which they first came."""
         return tuple(
             Notice(code=code, detail=detail if self._count[code] == 1 else f"{detail} ({self._count[code]} in all)")

@@ -12,11 +12,11 @@ def take_name(given: object, place: int) -> str:
     """The name of a take, shortened where it is long; a take without one is called by its place."""
     if isinstance(given, str) and given:
         # A lone surrogate is legal in JSON and cannot be written as UTF-8.
-        return shortened(given).encode("utf-8", "replace").decode("utf-8")
+        return shorten_name(given).encode("utf-8", "replace").decode("utf-8")
     return f"take {place}"
 
 
-def shortened(name: str) -> str:
+def shorten_name(name: str) -> str:
     """The beginning of a long name, with an ellipsis for the rest."""
     return name if len(name) <= LONGEST else f"{name[: LONGEST - 1]}…"
 
@@ -31,10 +31,12 @@ def select_take(names: list[str], wanted: str | int) -> int | None:
     if isinstance(wanted, int):
         if 0 <= wanted < len(names):
             return wanted
-        raise ParameterError("unknown-take", f"There is no take {wanted}. {_listed(names)}", parameter="take")
-    places = [place for place, name in enumerate(names) if name == shortened(wanted)]
+        raise ParameterError("unknown-take", f"There is no take {wanted}. {_list_names(names)}", parameter="take")
+    places = [place for place, name in enumerate(names) if name == shorten_name(wanted)]
     if not places:
-        raise ParameterError("unknown-take", f"There is no take {wanted[:80]!r}. {_listed(names)}", parameter="take")
+        raise ParameterError(
+            "unknown-take", f"There is no take {wanted[:80]!r}. {_list_names(names)}", parameter="take"
+        )
     if len(places) > 1:
         numbers = ", ".join(map(str, places[:MOST_NAMES_SHOWN]))
         raise ParameterError(
@@ -45,7 +47,7 @@ def select_take(names: list[str], wanted: str | int) -> int | None:
     return places[0]
 
 
-def _listed(names: list[str]) -> str:
+def _list_names(names: list[str]) -> str:
     shown = ", ".join(f"{place} {name[:40]!r}" for place, name in enumerate(names[:MOST_NAMES_SHOWN]))
     more = f" and {len(names) - MOST_NAMES_SHOWN} more" if len(names) > MOST_NAMES_SHOWN else ""
     return f"The file has {shown}{more}."

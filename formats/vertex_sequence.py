@@ -25,12 +25,12 @@ class VertexSequence:
         """Positions of frames [start, stop); raises `non-finite-data` naming frame and vertex."""
         if self.step == 1 and self.first.is_integer():
             skipped = int(self.first)
-            block = _plain(self.stored[skipped + start : skipped + stop])
+            block = _as_float32(self.stored[skipped + start : skipped + stop])
         else:
             at = np.minimum(self.first + np.arange(start, stop) * self.step, len(self.stored) - 1)
             before = np.minimum(at.astype(np.int64), len(self.stored) - 2)
             share = (at - before)[:, None, None]
-            block = _plain(self.stored[before] * (1 - share) + self.stored[before + 1] * share)
+            block = _as_float32(self.stored[before] * (1 - share) + self.stored[before + 1] * share)
         if not require_finite(block):
             frame, vertex = np.argwhere(~np.isfinite(block).all(axis=2))[0].tolist()
             raise InvalidModel(
@@ -45,6 +45,6 @@ def require_finite(values: Float[np.ndarray, "..."]) -> bool:
     return bool(np.isfinite(flat.dot(flat))) or bool(np.isfinite(flat).all())
 
 
-def _plain(block: Shaped[np.ndarray, "block V 3"]) -> Float[np.ndarray, "block V 3"]:
+def _as_float32(block: Shaped[np.ndarray, "block V 3"]) -> Float[np.ndarray, "block V 3"]:
     with np.errstate(over="ignore"):
         return np.require(block, np.float32, ["C_CONTIGUOUS", "ALIGNED"])

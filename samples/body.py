@@ -6,15 +6,15 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from caesura.samples.skeleton import BIND, HUMAN
-from caesura.samples.surface import Limb, Surface, skin
-from caesura.samples.weights import heat_weights, strongest
+from caesura.samples.surface import Limb, Surface, polygonise_limbs
+from caesura.samples.weights import heat_weights, strongest_weights
 
 CELL = 0.03  # metres: about 6,000 triangles
 SHARPNESS = 0.4
 
 # Joint, from, to, radius there and there: metres, from the joint, in the straight stance. Limbs come in pairs.
-Form = tuple[str, tuple[float, float, float], tuple[float, float, float], float, float]
-FORMS: tuple[Form, ...] = (
+LimbShape = tuple[str, tuple[float, float, float], tuple[float, float, float], float, float]
+LIMB_SHAPES: tuple[LimbShape, ...] = (
     ("hips", (-0.075, -0.03, -0.01), (0.075, -0.03, -0.01), 0.105, 0.105),
     ("hips", (-0.055, 0.06, 0.0), (0.055, 0.06, 0.0), 0.098, 0.098),
     ("spine", (-0.05, 0.06, 0.0), (0.05, 0.06, 0.0), 0.098, 0.098),
@@ -25,7 +25,7 @@ FORMS: tuple[Form, ...] = (
     ("head", (0.0, 0.1, -0.005), (0.0, 0.13, 0.0), 0.09, 0.092),
     ("head", (0.0, 0.03, 0.035), (0.0, 0.08, 0.04), 0.055, 0.068),
 )
-PAIRS: tuple[Form, ...] = (
+PAIRS: tuple[LimbShape, ...] = (
     ("clavicle", (0.03, 0.0, -0.01), (0.12, 0.0, -0.01), 0.05, 0.055),
     ("upper_arm", (0.0, 0.0, 0.0), (0.0, -0.1, 0.0), 0.062, 0.054),
     ("upper_arm", (0.0, -0.1, 0.003), (0.0, -0.285, 0.0), 0.054, 0.041),
@@ -59,10 +59,10 @@ class Body:
     colours: Float[np.ndarray, "V 3"]
 
 
-def limbs() -> list[Limb]:
+def bind_pose_limbs() -> list[Limb]:
     """The round cones of the body in the bind pose."""
     world, places = HUMAN.pose(BIND)
-    rows = [(row, "", 1.0) for row in FORMS]
+    rows = [(row, "", 1.0) for row in LIMB_SHAPES]
     rows += [(row, side, mirror) for side, mirror in ((".L", 1.0), (".R", -1.0)) for row in PAIRS]
     made = []
     for (name, start, end, start_radius, end_radius), side, mirror in rows:
@@ -72,12 +72,12 @@ def limbs() -> list[Limb]:
     return made
 
 
-def body(cell: float = CELL) -> Body:
+def build_body(cell: float = CELL) -> Body:
     """The smooth figure, made from its measures alone; triangles are about `cell` metres wide."""
-    forms = limbs()
-    surface = skin(forms, cell)
+    forms = bind_pose_limbs()
+    surface = polygonise_limbs(forms, cell)
     weights = heat_weights(surface, forms, len(HUMAN.names), SHARPNESS)
-    joints, kept = strongest(weights)
+    joints, kept = strongest_weights(weights)
     return Body(surface, joints, kept, _colours(surface, weights))
 
 

@@ -4,11 +4,11 @@ from functools import cache
 
 import numpy as np
 
-from caesura.samples.body import body
+from caesura.samples.body import build_body
 from caesura.samples.model import rigid_glb, smooth_glb
-from caesura.samples.parts import parts
+from caesura.samples.parts import build_parts
 from caesura.samples.repertoire import MOTIONS
-from caesura.samples.take import RATE, Part, Sample, perform
+from caesura.samples.take import RATE, Part, Sample, perform_take
 
 CHOREOGRAPHIES = {
     "smooth": (
@@ -25,10 +25,10 @@ FIGURES = tuple(CHOREOGRAPHIES)
 
 
 @cache
-def figure(name: str) -> Sample:
+def build_figure(name: str) -> Sample:
     """One of `FIGURES`: a minute or less at 30 frames a second. The same bytes at every call."""
     random = np.random.default_rng(SEEDS[name])
     motions = [(MOTIONS[motion], times) for motion, times in CHOREOGRAPHIES[name]]
-    take = perform([Part(motion, motion.ends(times, RATE, random)) for motion, times in motions], random)
-    glb = smooth_glb(body(), take) if name == "smooth" else rigid_glb(parts(), take)
+    take = perform_take([Part(motion, motion.ends(times, RATE, random)) for motion, times in motions], random)
+    glb = smooth_glb(build_body(), take) if name == "smooth" else rigid_glb(build_parts(), take)
     return Sample(glb, take.truth)

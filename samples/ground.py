@@ -3,7 +3,7 @@
 import numpy as np
 from jaxtyping import Float
 
-from caesura.samples.motions import DRIVES, Course
+from caesura.samples.motions import DRIVES, FigureMotion
 from caesura.samples.skeleton import HUMAN
 
 SOLE = (("foot", (0.0, -0.085, -0.06)), ("toes", (0.0, -0.03, 0.02)))  # heel and ball: metres from the joint
@@ -12,7 +12,7 @@ TILT = (-48.0, 42.0)  # degrees an ankle can flex
 ROLL = (-22.0, 22.0)  # degrees it can give sideways
 
 
-def feet_to_ground(angles: Float[np.ndarray, "frames J 3"]) -> Float[np.ndarray, "frames J 3"]:
+def set_feet_on_ground(angles: Float[np.ndarray, "frames J 3"]) -> Float[np.ndarray, "frames J 3"]:
     """Turns soles told against the ground into flexion of the ankles, as far as ankles go."""
     angles = angles.copy()
     hips = HUMAN.index("hips")
@@ -25,13 +25,13 @@ def feet_to_ground(angles: Float[np.ndarray, "frames J 3"]) -> Float[np.ndarray,
     return angles
 
 
-def root(
-    course: Course, angles: Float[np.ndarray, "frames J 3"], rate: float
+def compute_root_motion(
+    course: FigureMotion, angles: Float[np.ndarray, "frames J 3"], rate: float
 ) -> tuple[Float[np.ndarray, "frames"], Float[np.ndarray, "frames 3"]]:
     """Heading in radians and place of the hips; `angles` are those of `feet_to_ground`."""
     lift, speed, turn, slide = (course.drives[:, DRIVES.index(name)] for name in DRIVES)
     heading = np.cumsum(np.radians(turn)) / rate
-    soles = _turned(_soles(angles), heading)  # from the hips
+    soles = _turn_by_heading(_sole_points(angles), heading)  # from the hips
     height = soles[..., 1]
     lowest = height.min(axis=1, keepdims=True)
     press = np.exp((lowest - height) / PRESS)
@@ -45,7 +45,7 @@ def root(
     return heading, place
 
 
-def _soles(angles: Float[np.ndarray, "frames J 3"]) -> Float[np.ndarray, "frames 4 3"]:
+def _sole_points(angles: Float[np.ndarray, "frames J 3"]) -> Float[np.ndarray, "frames 4 3"]:
     world, places = HUMAN.pose(angles)
     hips = places[:, HUMAN.index("hips")]
     points = []
@@ -56,7 +56,7 @@ def _soles(angles: Float[np.ndarray, "frames J 3"]) -> Float[np.ndarray, "frames
     return np.stack(points, axis=1)
 
 
-def _turned(
+def _turn_by_heading(
     points: Float[np.ndarray, "frames n 3"], heading: Float[np.ndarray, "frames"]
 ) -> Float[np.ndarray, "frames n 3"]:
     cos, sin = np.cos(heading)[:, None], np.sin(heading)[:, None]

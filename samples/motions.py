@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.interpolate import PchipInterpolator
 
-from caesura.samples.skeleton import AXES, HUMAN, JOINTS, straight
+from caesura.samples.skeleton import AXES, HUMAN, JOINTS, straight_stance
 
 Keys = Sequence[tuple[float, float]]  # (phase in [0, 1), value), read as a periodic curve
 DRIVES = ("lift", "speed", "turn", "slide")  # metres off the ground; metres/s forward; degrees/s; share not planted
@@ -16,7 +16,7 @@ PAIRED = {name[:-2] for name in HUMAN.names if name.endswith(".L")}
 
 
 @dataclass(frozen=True)
-class Course:
+class FigureMotion:
     """A figure over time: `angles` of all joints in degrees, and `drives`, how it moves over the ground."""
 
     angles: Float[np.ndarray, "frames J 3"]
@@ -59,7 +59,7 @@ class Motion:
         frames: Float[np.ndarray, "frames"],
         ends: Float[np.ndarray, "repetitions"],
         random: np.random.Generator,
-    ) -> Course:
+    ) -> FigureMotion:
         """The figure at `frames`, where repetition i ends at frame `ends[i]` and the first begins at 0.
 
         Frames before 0 and after the last end go on with the motion, for cross-fades.
@@ -68,7 +68,7 @@ class Motion:
         sizes = np.clip(1 + self.variation * random.standard_normal((len(ends), 1)), 0.6, 1.3)
         sizes = sizes * (1 + 0.5 * self.variation * random.standard_normal((len(ends), JOINTS)))
         habit = 2.5 * random.standard_normal((JOINTS, 3))
-        size = _between(sizes, phase)
+        size = _blend_sizes(sizes, phase)
         angles = np.broadcast_to(STANCE + habit * LOOSE, (len(frames), JOINTS, 3)).copy()
         drives = np.zeros((len(frames), len(DRIVES)))
         for joint, axis, shift, spline in self.tracks:
@@ -77,7 +77,7 @@ class Motion:
                 drives[:, axis] = value
             else:
                 angles[:, joint, axis] += size[:, joint] * value
-        return Course(angles, drives)
+        return FigureMotion(angles, drives)
 
     def ends(self, repetitions: int, rate: float, random: np.random.Generator) -> Float[np.ndarray, "repetitions"]:
         """Frames at which the repetitions end, each done at its own speed; the last is a whole frame."""
@@ -88,8 +88,8 @@ class Motion:
         return ends
 
 
-def _stance() -> Float[np.ndarray, "J 3"]:
-    angles = straight()
+def _stance_angles() -> Float[np.ndarray, "J 3"]:
+    angles = straight_stance()
     for joint, axis, value in (
         ("upper_arm", "side", 9.0),
         ("upper_arm", "flex", 2.0),
@@ -103,7 +103,7 @@ def _stance() -> Float[np.ndarray, "J 3"]:
     return angles
 
 
-def _loose() -> Float[np.ndarray, "J 3"]:
+def _looseness() -> Float[np.ndarray, "J 3"]:
     """How much of a performer's habit each angle takes: knees, feet and hips keep what balance asks of them."""
     loose = np.ones((JOINTS, 3))
     for joint, name in enumerate(HUMAN.names):
@@ -129,7 +129,7 @@ def _phase(frames: Float[np.ndarray, "frames"], ends: Float[np.ndarray, "repetit
     return phase
 
 
-def _between(
+def _blend_sizes(
     sizes: Float[np.ndarray, "repetitions J"], phase: Float[np.ndarray, "frames"]
 ) -> Float[np.ndarray, "frames J"]:
     """Sizes held in the middle of each repetition, going over smoothly from one to the next."""
@@ -140,5 +140,5 @@ def _between(
     return between
 
 
-STANCE = _stance()
-LOOSE = _loose()
+STANCE = _stance_angles()
+LOOSE = _looseness()

@@ -57,7 +57,7 @@ PAIRS = (
 )
 
 
-def parts() -> list[Part]:
+def build_parts() -> list[Part]:
     """The whole robot."""
     rows = [(joint, joint, kind, place, size, colour, 1.0) for joint, kind, place, size, colour in TRUNK]
     for side, mirror in ((".L", 1.0), (".R", -1.0)):

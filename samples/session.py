@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from caesura.samples.body import body
+from caesura.samples.body import build_body
 from caesura.samples.model import smooth_glb
 from caesura.samples.motions import Motion
 from caesura.samples.repertoire import MOTIONS, STILL, T_POSE
-from caesura.samples.take import RATE, Part, Sample, perform
+from caesura.samples.take import RATE, Part, Sample, perform_take
 
 SEED = 72
 PLAYED = (
@@ -27,11 +27,11 @@ def long_session(frames: int = 72_000) -> Sample:
     performances of one motion never touch. The same bytes at every call.
     """
     random = np.random.default_rng(SEED)
-    take = perform(schedule(frames, random), random)
-    return Sample(smooth_glb(body(), take), take.truth)
+    take = perform_take(plan_session(frames, random), random)
+    return Sample(smooth_glb(build_body(), take), take.truth)
 
 
-def schedule(frames: int, random: np.random.Generator) -> list[Part]:
+def plan_session(frames: int, random: np.random.Generator) -> list[Part]:
     """What is performed, in order: frames of all parts sum to `frames`."""
     parts = [_part(T_POSE, CALIBRATION, random)]
     left = frames - parts[0].frames
@@ -46,7 +46,7 @@ def schedule(frames: int, random: np.random.Generator) -> list[Part]:
         for part in _performance(MOTIONS[last], random):
             parts.append(part)
             left -= part.frames
-    return _ended(parts, frames)
+    return _append_ending(parts, frames)
 
 
 def _performance(motion: Motion, random: np.random.Generator) -> list[Part]:
@@ -62,7 +62,7 @@ def _part(motion: Motion, seconds: tuple[float, float], random: np.random.Genera
     return Part(motion, motion.ends(repetitions, RATE, random))
 
 
-def _ended(parts: list[Part], frames: int) -> list[Part]:
+def _append_ending(parts: list[Part], frames: int) -> list[Part]:
     """The parts that leave room for a still ending, and the ending that makes it `frames` exactly."""
     while sum(part.frames for part in parts) > frames - ENDING * RATE / 2 or parts[-1].motion is STILL:
         parts.pop()

@@ -102,14 +102,14 @@ HUMAN = _human()
 JOINTS = len(HUMAN.names)
 
 
-def straight() -> Float[np.ndarray, "J 3"]:
+def straight_stance() -> Float[np.ndarray, "J 3"]:
     """Angles of the straight stance with hanging arms: zeros, to be filled."""
     return np.zeros((JOINTS, 3))
 
 
-def arms_out(degrees: float) -> Float[np.ndarray, "J 3"]:
+def spread_arms(degrees: float) -> Float[np.ndarray, "J 3"]:
     """Angles of standing with the arms so far from the body: 90 is the T-pose, 40 the A-pose figures are bound in."""
-    angles = straight()
+    angles = straight_stance()
     for side in (".L", ".R"):
         angles[HUMAN.index("upper_arm" + side), 1] = degrees
         angles[HUMAN.index("thigh" + side), 1] = 5.0
@@ -117,4 +117,4 @@ def arms_out(degrees: float) -> Float[np.ndarray, "J 3"]:
     return angles
 
 
-BIND = arms_out(40.0)
+BIND = spread_arms(40.0)

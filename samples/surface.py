@@ -45,7 +45,7 @@ class Surface:
     normals: Float[np.ndarray, "V 3"]
 
 
-def union(limbs: Sequence[Limb], points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n"]:
+def union_distance(limbs: Sequence[Limb], points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n"]:
     """Distance to all limbs together, their joins rounded: Quilez' polynomial smooth minimum."""
     total = limbs[0].distance(points)
     for limb in limbs[1:]:
@@ -55,15 +55,15 @@ def union(limbs: Sequence[Limb], points: Float[np.ndarray, "n 3"]) -> Float[np.n
     return total
 
 
-def skin(limbs: Sequence[Limb], cell: float) -> Surface:
+def polygonise_limbs(limbs: Sequence[Limb], cell: float) -> Surface:
     """The surface of the union, with triangles of about `cell` edge length."""
     reach = max(max(limb.start_radius, limb.end_radius) for limb in limbs) + 3 * cell
     ends = np.array([end for limb in limbs for end in (limb.start, limb.end)])
     low, high = ends.min(axis=0) - reach, ends.max(axis=0) + reach
     axes = [np.arange(a, b, cell) for a, b in zip(low, high, strict=True)]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
-    values = union(limbs, grid.reshape(-1, 3)).reshape(grid.shape[:3])
-    vertices, triangles = surface_nets(decided(values))
+    values = union_distance(limbs, grid.reshape(-1, 3)).reshape(grid.shape[:3])
+    vertices, triangles = surface_nets(remove_ambiguous_squares(values))
     vertices = low + vertices * cell
     for _ in range(POLISH):
         vertices += 0.6 * (neighbour_mean(vertices, triangles) - vertices)
@@ -96,7 +96,7 @@ def surface_nets(
     return vertices, _split(vertices, np.concatenate(quads))
 
 
-def decided(values: Float[np.ndarray, "x y z"]) -> Float[np.ndarray, "x y z"]:
+def remove_ambiguous_squares(values: Float[np.ndarray, "x y z"]) -> Float[np.ndarray, "x y z"]:
     """Values without a lattice square whose signs alternate around it, for there four triangles would meet at an edge.
 
     The nearer of the two outer corners joins the body, so this ends; the surface is put back in its place afterwards.
@@ -124,9 +124,9 @@ def _gradient(
     limbs: Sequence[Limb], points: Float[np.ndarray, "n 3"]
 ) -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n"]]:
     step = 1e-4
-    slopes = [union(limbs, points + step * e) - union(limbs, points - step * e) for e in np.eye(3)]
+    slopes = [union_distance(limbs, points + step * e) - union_distance(limbs, points - step * e) for e in np.eye(3)]
     gradient = np.stack(slopes, axis=1) / (2 * step)
-    return gradient / np.linalg.norm(gradient, axis=1, keepdims=True), union(limbs, points)
+    return gradient / np.linalg.norm(gradient, axis=1, keepdims=True), union_distance(limbs, points)
 
 
 def _crossings(

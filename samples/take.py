@@ -7,8 +7,8 @@ from itertools import pairwise
 import numpy as np
 from jaxtyping import Float
 
-from caesura.samples.ground import feet_to_ground, root
-from caesura.samples.motions import DRIVES, Course, Motion
+from caesura.samples.ground import compute_root_motion, set_feet_on_ground
+from caesura.samples.motions import DRIVES, FigureMotion, Motion
 from caesura.samples.skeleton import HUMAN, JOINTS, quaternions
 
 RATE = 30.0
@@ -76,13 +76,13 @@ class Take:
         return np.where(near < exact, np.nextafter(near, np.float32(np.inf)), near)
 
 
-def perform(parts: Sequence[Part], random: np.random.Generator) -> Take:
+def perform_take(parts: Sequence[Part], random: np.random.Generator) -> Take:
     """The take of these parts. Each begins where its first repetition does: in the middle of a cross-fade of half
     a second.
     """
     cuts = np.concatenate([[0], np.cumsum([part.frames for part in parts])]).tolist()
     length = cuts[-1]
-    course = Course(np.zeros((length, JOINTS, 3)), np.zeros((length, len(DRIVES))))
+    course = FigureMotion(np.zeros((length, JOINTS, 3)), np.zeros((length, len(DRIVES))))
     for part, start, end in zip(parts, cuts, cuts[1:], strict=False):
         first, last = max(start - FADE, 0), min(end + FADE, length)
         frames = np.arange(first, last)
@@ -90,16 +90,16 @@ def perform(parts: Sequence[Part], random: np.random.Generator) -> Take:
         share = _fade(frames, start, end, length)
         course.angles[first:last] += share[:, None, None] * clip.angles
         course.drives[first:last] += share[:, None] * clip.drives
-    course.angles[:] += _wander(length, random)
+    course.angles[:] += _random_drift(length, random)
     names = [part.motion.name for part in parts]
     segments = tuple(zip(names, cuts, cuts[1:], strict=False))
     repeats = tuple(tuple(np.rint(s + p.ends).astype(int).tolist()) for p, s in zip(parts, cuts, strict=False))
     return _record(course, Truth(RATE, length, segments, repeats))
 
 
-def _record(course: Course, truth: Truth) -> Take:
-    angles = feet_to_ground(course.angles)
-    heading, places = root(course, angles, RATE)
+def _record(course: FigureMotion, truth: Truth) -> Take:
+    angles = set_feet_on_ground(course.angles)
+    heading, places = compute_root_motion(course, angles, RATE)
     local = np.moveaxis(HUMAN.rotations(angles), 1, 0)
     cos, sin, none = np.cos(heading), np.sin(heading), np.zeros_like(heading)
     turned = np.stack([cos, none, sin, none, none + 1, none, -sin, none, cos], axis=-1).reshape(-1, 3, 3)
@@ -120,7 +120,7 @@ def _smooth(x: Float[np.ndarray, "n"]) -> Float[np.ndarray, "n"]:
     return held
 
 
-def _wander(frames: int, random: np.random.Generator) -> Float[np.ndarray, "frames J 3"]:
+def _random_drift(frames: int, random: np.random.Generator) -> Float[np.ndarray, "frames J 3"]:
     """Breathing, and slow aimless drifts of every angle; the feet drift least."""
     seconds = np.arange(frames) / RATE
     drift = np.zeros((frames, JOINTS, 3))

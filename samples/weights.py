@@ -25,7 +25,7 @@ def heat_weights(surface: Surface, limbs: list[Limb], bones: int, sharpness: flo
     return weights
 
 
-def strongest(
+def strongest_weights(
     weights: Float[np.ndarray, "V bones"],
 ) -> tuple[Int[np.ndarray, "V 4"], Float[np.ndarray, "V 4"]]:
     """The four strongest bones of each vertex and their weights, which sum to 1; unused places hold bone 0.

@@ -48,8 +48,8 @@ def create_app(settings: ServiceSettings) -> FastAPI:
     for routes in (animations, segmentations, results, revisions, clips, session, about, health):
         app.include_router(routes.router, dependencies=[Depends(refuse_unknown_names), Depends(require_capacity)])
     app.include_router(pages.router)
-    pages.mount(app)
-    openapi.describe(app)
+    pages.mount_page_files(app)
+    openapi.install_description(app)
     app.add_middleware(BodyLimit, upload_bytes=settings.max_upload_bytes)
     app.add_middleware(GZipMiddleware, compresslevel=6, exclude_content_types=(*DEFAULT_EXCLUDED_CONTENT_TYPES, *FILES))
     app.add_middleware(AuthenticationMiddleware, settings=settings)

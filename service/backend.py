@@ -36,7 +36,7 @@ class Backend:
     jobs: Jobs
     blobs: Blobs
     key_file: KeyFile
-    seats: StreamLimit = field(default_factory=StreamLimit)
+    stream_limit: StreamLimit = field(default_factory=StreamLimit)
     _waits: set[CancelScope] = field(default_factory=set)
 
     @cached_property
@@ -84,7 +84,7 @@ class Backend:
             return record
         ended: SegmentationRecord | None = None
         with self.limited_wait(seconds):
-            ended = await self.records.ended(record.id)
+            ended = await self.records.wait_until_ended(record.id)
         return ended or await self.segmentation(record.id, record.owner)
 
     async def position(self, record: SegmentationRecord) -> int | None:

@@ -14,7 +14,7 @@ from prometheus_client.registry import Collector
 
 from caesura.service.backend import Backend
 from caesura.worker.records import counters, redis_keys
-from caesura.worker.records.connection import names
+from caesura.worker.records.connection import decode_names
 
 METHODS = frozenset({"GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS"})
 LATENCY_BUCKETS = (0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 1, 5, 30)
@@ -41,12 +41,12 @@ class Metrics:
     def request(self, method: str, route: str, status: int, seconds: float | None) -> None:
         """Count an answer. What is no method and no route of ours has no name of its own: names are for ever."""
         method, route = method if method in METHODS else "other", route or "none"
-        counter, histogram = self._of(method, route, status)
+        counter, histogram = self._series(method, route, status)
         counter.inc()
         if seconds is not None:
             histogram.observe(seconds)
 
-    def _of(self, method: str, route: str, status: int) -> tuple[Counter, Histogram]:
+    def _series(self, method: str, route: str, status: int) -> tuple[Counter, Histogram]:
         """Its two series, found once: the library checks names and labels anew at each call."""
         found = self._found.get((method, route, status))
         if found is None:
@@ -57,11 +57,11 @@ class Metrics:
     def text(self, backend: Backend) -> bytes:
         """All of it in Prometheus's text form. Blocks: run it on a thread."""
         shared = CollectorRegistry()
-        shared.register(_Shared(backend))
+        shared.register(_SharedMetrics(backend))
         return generate_latest(self.registry) + generate_latest(shared)
 
 
-class _Shared(Collector):
+class _SharedMetrics(Collector):
     """What Redis and the disk tell, read at every scrape."""
 
     def __init__(self, backend: Backend) -> None:
@@ -78,7 +78,7 @@ class _Shared(Collector):
             "store_bytes",
             "Size of the blobs of a kind at the last sweep.",
             "kind",
-            dict(zip(names(stored), map(int, stored.values()), strict=True)),
+            dict(zip(decode_names(stored), map(int, stored.values()), strict=True)),
         )
         for name, help_, value in (
             (

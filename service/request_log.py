@@ -58,4 +58,4 @@ class RequestLogMiddleware:
         if route in POLLED and scope["method"] == "GET" and status < FAILED:
             return
         told = {"method": scope["method"], "path": scope["path"], "status": status, "ms": round(seconds * 1000, 1)}
-        log.info("request", extra={"told": told})
+        log.info("request", extra={"fields": told})

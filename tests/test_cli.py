@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from caesura.samples.figures import figure
+from caesura.samples.figures import build_figure
 from caesura.service.commands.local_service import local_service
 
 FRAMES = 300
@@ -87,7 +87,7 @@ def test_help_answers_at_once() -> None:
 
 def test_a_glb_loads_no_library_that_it_does_not_need(tmp_path: Path) -> None:
     """By the default method: no trimesh, no scikit-learn, and of SciPy nothing but the algebra that Numba asks for."""
-    (tmp_path / "rigid.glb").write_bytes(figure("rigid").glb)
+    (tmp_path / "rigid.glb").write_bytes(build_figure("rigid").glb)
     script = (
         "import sys; from caesura.service.commands.cli import main; main(sys.argv[1:], standalone_mode=False);"
         "unneeded = {'trimesh', 'sklearn', 'scipy.stats', 'scipy.spatial', 'scipy.optimize', 'scipy.ndimage',"

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from caesura.samples.figures import figure
+from caesura.samples.figures import build_figure
 from caesura.service.commands.local_service import local_service
 from tests.installation import take_npz
 
@@ -24,7 +24,7 @@ def example(checkout: Path, name: str, *arguments: str | Path) -> subprocess.Com
 def take(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The robot, as a file."""
     path = tmp_path_factory.mktemp("takes") / "robot.glb"
-    path.write_bytes(figure("rigid").glb)
+    path.write_bytes(build_figure("rigid").glb)
     return path
 
 
@@ -42,7 +42,7 @@ def test_a_researcher_gets_curve_key_frames_and_a_comparison(checkout: Path, tmp
     assert run.returncode == 0, run.stderr
     indices = {line.split()[0]: float(line.split()[1]) for line in run.stdout.splitlines() if line.startswith("  ")}
     assert indices["switching"] > 0.9 > indices["k-means"]
-    frames = figure("smooth").truth.frames
+    frames = build_figure("smooth").truth.frames
     assert len((tmp_path / "energy.csv").read_text().splitlines()) == frames + 1
 
 

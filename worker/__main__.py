@@ -42,7 +42,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     options = parser.parse_args(arguments)
     settings = WorkerSettings()
     if options.check:
-        sys.exit(0 if _alive(settings) else 1)
+        sys.exit(0 if _has_live_worker(settings) else 1)
     logs.configure_logging(settings.log_format)
     try:
         run(settings, options.queues or DEFAULT_GROUPS)
@@ -71,10 +71,10 @@ def run(settings: WorkerSettings, groups: list[list[str]]) -> None:
         submit_sweep_if_due(jobs)
         delete_abandoned_files(settings.scratch_dir)
 
-    WorkerPool(groups, lambda queues: _work(queues, settings), tend, settings.stop_seconds).run()
+    WorkerPool(groups, lambda queues: _run_worker(queues, settings), tend, settings.stop_seconds).run()
 
 
-def _work(queues: list[str], settings: WorkerSettings) -> None:
+def _run_worker(queues: list[str], settings: WorkerSettings) -> None:
     """One worker, in its own process. It leaves where Redis refuses a write; the one after it waits first."""
     from caesura.worker.tasks import prepare  # noqa: PLC0415  as in `run`
 
@@ -85,7 +85,7 @@ def _work(queues: list[str], settings: WorkerSettings) -> None:
     worker.work(logging_level="INFO")
 
 
-def _alive(settings: WorkerSettings) -> bool:
+def _has_live_worker(settings: WorkerSettings) -> bool:
     try:
         return has_live_worker_here(connect(settings.redis_location))
     except RedisError:

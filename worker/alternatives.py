@@ -55,7 +55,7 @@ def restore_alternative(records: Records, wanted: SegmentationRecord, beside: st
     def change(kept: SegmentationRecord) -> SegmentationRecord | None:
         if kept is not wanted and (kept.live or kept.settled):
             return None
-        return kept.with_(
+        return kept.with_changes(
             status="done",
             stage="",
             fraction=1.0,

@@ -18,7 +18,7 @@ SKEW_SECONDS = 300.0
 """The clocks of two machines may differ by so much."""
 
 
-def gone_evenly(client: Redis, longest_gap: float, now: float) -> bool:
+def is_clock_steady(client: Redis, longest_gap: float, now: float) -> bool:
     """Note the time `now`, and answer whether there was no gap above `longest_gap` s, and no way back, for a day.
 
     The first look is compared with the last use of anything. Where the answer is no, the log says why and until when.

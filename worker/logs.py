@@ -20,28 +20,28 @@ Form = Literal["text", "json"]
 
 TEXT = "%(asctime)s %(levelname)s %(name)s: %(message)s"
 
-_ABOUT: ContextVar[dict[str, str]] = ContextVar("about", default={})  # noqa: B039  never changed, only replaced
-_GIVEN = re.compile(r"[A-Za-z0-9._:-]{1,64}")
+_CONTEXT: ContextVar[dict[str, str]] = ContextVar("about", default={})  # noqa: B039  never changed, only replaced
+_REQUEST_ID = re.compile(r"[A-Za-z0-9._:-]{1,64}")
 
 
 @contextmanager
 def log_context(**ids: str) -> Iterator[None]:
     """What is logged in this block is about these: `request`, `segmentation`, …"""
-    before = _ABOUT.set({**_ABOUT.get(), **{name: value for name, value in ids.items() if value}})
+    before = _CONTEXT.set({**_CONTEXT.get(), **{name: value for name, value in ids.items() if value}})
     try:
         yield
     finally:
-        _ABOUT.reset(before)
+        _CONTEXT.reset(before)
 
 
 def request_id() -> str:
     """The id of the request that is being worked on; empty where there is none."""
-    return _ABOUT.get().get("request", "")
+    return _CONTEXT.get().get("request", "")
 
 
 def safe_request_id(given: str) -> str:
     """An id that came from outside, where it is one; else a new one. It will stand in logs and headers."""
-    return given if _GIVEN.fullmatch(given) else secrets.token_hex(8)
+    return given if _REQUEST_ID.fullmatch(given) else secrets.token_hex(8)
 
 
 def configure_logging(form: Form) -> None:
@@ -66,7 +66,7 @@ class JsonLines(logging.Formatter):
 
     def format(self, record: logging.LogRecord) -> str:
         """The line."""
-        told: dict[str, object] = {
+        fields: dict[str, object] = {
             "time": datetime.fromtimestamp(record.created, UTC).isoformat(timespec="milliseconds"),
             "level": record.levelname,
             "logger": record.name,
@@ -74,8 +74,8 @@ class JsonLines(logging.Formatter):
             **_values(record),
         }
         if record.exc_info:
-            told["traceback"] = self.formatException(record.exc_info)
-        return json.dumps(told, ensure_ascii=False)
+            fields["traceback"] = self.formatException(record.exc_info)
+        return json.dumps(fields, ensure_ascii=False)
 
 
 def _quote(value: str) -> str:
@@ -84,6 +84,6 @@ def _quote(value: str) -> str:
 
 
 def _values(record: logging.LogRecord) -> dict[str, object]:
-    """What the line is about, and what it was given beside its message: `log.info("…", extra={"told": {…}})`."""
-    told: dict[str, object] = getattr(record, "told", {})
-    return {**_ABOUT.get(), **told}
+    """What the line is about, and what it was given beside its message: `log.info("…", extra={"fields": {…}})`."""
+    fields: dict[str, object] = getattr(record, "fields", {})
+    return {**_CONTEXT.get(), **fields}

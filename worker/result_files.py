@@ -25,7 +25,7 @@ from caesura.worker.queue.job_problems import INTERNAL_ERROR, problem_of
 from caesura.worker.queue.queues import TimeLimit
 from caesura.worker.records import Records
 from caesura.worker.records.connection import tolerate_full_disk
-from caesura.worker.records.revisions import edits_of
+from caesura.worker.records.revisions import read_edits
 from caesura.worker.records.schema import ExportRecord, SegmentationRecord
 from caesura.worker.retention.deletion import delete_oldest_result_files
 from caesura.worker.settings import WorkerSettings
@@ -58,7 +58,7 @@ class ResultFileJob:
         return ExportRecord(key=key, media_type=media_type, created=time.time())
 
 
-def npz(export: ResultFileJob, _: ResultFileOptions) -> ExportRecord:
+def write_npz(export: ResultFileJob, _: ResultFileOptions) -> ExportRecord:
     """`energy` (frames,) float32, `labels` (frames,) uint16, `key_frames` (keys,), `segments` (segments, 3) of
 
     start, end, motion; `frame_rate`; and the whole document as JSON in `document`.
@@ -77,24 +77,24 @@ def npz(export: ResultFileJob, _: ResultFileOptions) -> ExportRecord:
     return export.keep(out.getvalue(), "application/octet-stream")
 
 
-def plot(export: ResultFileJob, _: ResultFileOptions) -> ExportRecord:
+def write_plot(export: ResultFileJob, _: ResultFileOptions) -> ExportRecord:
     """The curve, its key-frames, the cuts and the segments in colour."""
     font = export.settings.font
     return export.keep(render_png(lay_out_picture(export.document), font.read_bytes() if font else None), "image/png")
 
 
-def clips(export: ResultFileJob, options: ResultFileOptions) -> ExportRecord:
+def write_clips_of_result(export: ResultFileJob, options: ResultFileOptions) -> ExportRecord:
     """The upload with its take in clips."""
     chosen = ClipOptions.of(options)
-    return _of_upload(export, lambda parts, scratch: write_clips(parts, export.document, chosen, scratch))
+    return _write_from_upload(export, lambda parts, scratch: write_clips(parts, export.document, chosen, scratch))
 
 
-def keyframes(export: ResultFileJob, _: ResultFileOptions) -> ExportRecord:
+def write_key_poses_of_result(export: ResultFileJob, _: ResultFileOptions) -> ExportRecord:
     """The upload with its take reduced to key poses."""
-    return _of_upload(export, lambda parts, scratch: write_key_poses(parts, export.document, scratch))
+    return _write_from_upload(export, lambda parts, scratch: write_key_poses(parts, export.document, scratch))
 
 
-def _of_upload(export: ResultFileJob, write: Callable[[Parts, Scratch], WrittenFile]) -> ExportRecord:
+def _write_from_upload(export: ResultFileJob, write: Callable[[Parts, Scratch], WrittenFile]) -> ExportRecord:
     """A file made of the uploaded one, which must still be there."""
     animation = export.records.animations.one(export.record.animation)
     if animation is None or not animation.parts:
@@ -107,7 +107,12 @@ def _of_upload(export: ResultFileJob, write: Callable[[Parts, Scratch], WrittenF
 
 
 ResultFileWriter = Callable[[ResultFileJob, ResultFileOptions], ExportRecord]
-WRITERS: dict[str, ResultFileWriter] = {"npz": npz, "png": plot, "clips": clips, "keyframes": keyframes}
+WRITERS: dict[str, ResultFileWriter] = {
+    "npz": write_npz,
+    "png": write_plot,
+    "clips": write_clips_of_result,
+    "keyframes": write_key_poses_of_result,
+}
 
 
 def make_result_file(records: Records, blobs: Blobs, settings: WorkerSettings, identifier: str, form: str) -> None:
@@ -117,7 +122,7 @@ def make_result_file(records: Records, blobs: Blobs, settings: WorkerSettings, i
     record = records.segmentations.one(identifier)
     document, energy, _ = records.segmentations.result(identifier)
     revision = int(options.pop("revision", "0"))
-    edits = edits_of(records, identifier, revision) if revision else ()
+    edits = read_edits(records, identifier, revision) if revision else ()
     if record is None or document is None or energy is None or edits is None:
         return  # deleted meanwhile
     result = SegmentationDocument.model_validate_json(document)

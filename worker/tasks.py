@@ -76,7 +76,7 @@ def _analyse(attempt: Attempt) -> None:
     settings, blobs = worker_context().settings, worker_context().blobs
     digest = content_ids.heavy_digest(parameters.heavy(), record.algorithm)
     threads = settings.threads or available_threads()
-    uploaded = _animation(attempt)
+    uploaded = _read_upload(attempt)
     allowance = JobQuota(settings.job_memory_bytes, settings.job_seconds * threads)
     attempt.progress("read", 0.0)
     with map_parts(blobs, uploaded.parts, allowance.extend) as parts:
@@ -90,11 +90,11 @@ def _analyse(attempt: Attempt) -> None:
             strain=None if shown.strain is None else blobs.put(shown.strain, "viewer"),
         )
     made = AnalysisRecord(key=blobs.put(analysis.to_bytes(), "analyses"), viewer=viewer)
-    kept = _keep(attempt, blobs, digest, made)
-    _finish(attempt, kept, analysis, parameters)
+    kept = _store_analysis(attempt, blobs, digest, made)
+    _store_result(attempt, kept, analysis, parameters)
 
 
-def _keep(attempt: Attempt, blobs: Blobs, digest: str, made: AnalysisRecord) -> AnalysisRecord:
+def _store_analysis(attempt: Attempt, blobs: Blobs, digest: str, made: AnalysisRecord) -> AnalysisRecord:
     """Keep the analysis. Where another job made the same one meanwhile, its blobs stay and these go."""
     kept = attempt.records.analyses.add(attempt.record.animation, digest, made)
     if kept != made:
@@ -113,13 +113,13 @@ def _cut(attempt: Attempt) -> None:
     if stored is not None:
         with suppress(BlobMissing):
             analysis = stored_analysis(stored.key)
-            _finish(attempt, stored, analysis, parameters)
+            _store_result(attempt, stored, analysis, parameters)
             return
         attempt.records.analyses.delete(record.animation, digest)
     attempt.jobs.hand_back(record.id, record.token, queue="analyse")
 
 
-def _finish(attempt: Attempt, stored: AnalysisRecord, analysis: Analysis, parameters: Parameters) -> None:
+def _store_result(attempt: Attempt, stored: AnalysisRecord, analysis: Analysis, parameters: Parameters) -> None:
     attempt.progress("cut", 0.0)
     result = cut(analysis, parameters)
     document = result.document(attempt.record.id)
@@ -137,7 +137,7 @@ def _finish(attempt: Attempt, stored: AnalysisRecord, analysis: Analysis, parame
         submit_alternatives(attempt.jobs, attempt.record.id)
 
 
-def _animation(attempt: Attempt) -> AnimationRecord:
+def _read_upload(attempt: Attempt) -> AnimationRecord:
     found = attempt.records.animations.one(attempt.record.animation)
     if found is None or not found.parts:
         raise BlobMissing(attempt.record.animation)

@@ -11,7 +11,7 @@ from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse, cut
 from caesura.formats.playback.playback_files import make_playback
 from caesura.formats.read import read_animation
-from caesura.samples.figures import figure
+from caesura.samples.figures import build_figure
 from caesura.worker.process.thread_count import available_threads
 from caesura.worker.process.warm_up import warm_up
 
@@ -22,7 +22,7 @@ MOTIONS = 4
 def overhead(url: str, turns: int = TURNS) -> list[Measure]:
     """In turns: the pipeline in this process, and the same take through the service; medians of the differences."""
     warm_up()
-    takes = different(figure("smooth").glb)
+    takes = different(build_figure("smooth").glb)
     posted, bare = [], []
     with Calls(url) as calls:
         calls.post_file(next(takes), motions=MOTIONS)

@@ -7,7 +7,7 @@ from redis import Redis
 from benchmarks.load.calls import Calls
 from benchmarks.load.measure import Measure, percentile
 from benchmarks.load.takes import different
-from caesura.samples.figures import figure
+from caesura.samples.figures import build_figure
 from caesura.worker.records import redis_keys
 
 TAKES = 5
@@ -17,7 +17,7 @@ LOOK_SECONDS = 0.05
 
 def analysed(calls: Calls, redis: Redis, takes: int = TAKES) -> list[tuple[str, list[int]]]:
     """Demo takes whose scored numbers of motions are stored: their animations, and those numbers."""
-    files = different(figure("smooth").glb)
+    files = different(build_figure("smooth").glb)
     found = []
     for _ in range(takes):
         status = calls.post_file(next(files))

@@ -20,8 +20,8 @@ class BlockStatistics:
 
     largest: float
     above_noise: int
-    widest: float
-    described: tuple[np.ndarray, np.ndarray]
+    largest_pair_change: float
+    features: tuple[np.ndarray, np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class BlockPass:
     animation: Animation
     body: MeasuredBody
     reach: float
-    coding: Quantisation
+    quantisation: Quantisation
     floor: int
     noise: Float32[np.ndarray, "columns"]
     projections: FeatureBasis | None
@@ -46,11 +46,11 @@ class BlockPass:
         largest, above = 0.0, 0
         for columns, tile in self.body.surface.tiles(vertices):
             self.body.patches.add(columns, tile, means)
-            most, more = self.coding.count(tile, self.noise[columns], self.floor, histogram)
+            most, more = self.quantisation.count(tile, self.noise[columns], self.floor, histogram)
             largest, above = max(largest, most), above + more
             if codes is not None:
-                self.coding.write(tile, codes, columns.start)
-        self.histograms.give(histogram)
+                self.quantisation.write(tile, codes, columns.start)
+        self.histograms.release(histogram)
         apart = self.body.pairs.measure(vertices)
         described = (means.T, apart)
         if self.projections is not None:
@@ -63,7 +63,7 @@ class BlockPass:
         if codes is None:
             codes = np.empty((block[1] - block[0], self.body.surface.columns), np.uint16)
             for columns, tile in self.body.surface.tiles(read_vertices(self.animation, block)):
-                self.coding.write(tile, codes, columns.start)
+                self.quantisation.write(tile, codes, columns.start)
         return codes
 
     def _kept(self, block: Block) -> UInt16[np.ndarray, "frames columns"] | None:

@@ -27,7 +27,7 @@ def learn_feature_basis(
     blocks = split_into_blocks(len(frames), frames_per_block(animation.vertex_count))
 
     def described(block: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
-        return body.describe(read_sampled_frames(animation, frames[slice(*block)]))
+        return body.measure_features(read_sampled_frames(animation, frames[slice(*block)]))
 
     threads = threads_at_once(threads, animation.vertex_count)
     pages = list(map_blocks(described, blocks, threads, progress=progress, stage="sample", total=len(blocks)))

@@ -21,7 +21,7 @@ class ThreadHistograms:
         except IndexError:
             return np.zeros(CODES, np.int64)
 
-    def give(self, counts: Int[np.ndarray, "codes"]) -> None:
+    def release(self, counts: Int[np.ndarray, "codes"]) -> None:
         """Give them back."""
         self._free.append(counts)
 

@@ -26,7 +26,7 @@ class MeasuredBody:
     patches: PatchMeans
     pairs: PairDistances
 
-    def describe(self, vertices: Float32[np.ndarray, "frames V 3"]) -> tuple[np.ndarray, np.ndarray]:
+    def measure_features(self, vertices: Float32[np.ndarray, "frames V 3"]) -> tuple[np.ndarray, np.ndarray]:
         """Patch means of strain (frames, patches) and pair distances (frames, pairs)."""
         means = self.patches.empty(len(vertices))
         if self.patches.patches:

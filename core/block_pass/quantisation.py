@@ -27,7 +27,7 @@ class Quantisation:
     gain: float
 
     @classmethod
-    def around(cls, largest: float) -> "Quantisation":
+    def for_largest(cls, largest: float) -> "Quantisation":
         """The coding for values whose largest so far is `largest`: 8 times more still fits."""
         return cls(2.0 ** -float(np.clip(np.floor(np.log2(largest)), *EXPONENTS)) if largest > 0 else 1.0)
 
@@ -80,11 +80,11 @@ class Quantisation:
         """The bin of each code, 0 to B − 1: how many `edges` it is above."""
         return np.searchsorted(self.edges(scale, bins), np.arange(CODES)).astype(np.uint8)
 
-    def tells_percentile(self, histogram: Int[np.ndarray, "codes"], percent: float = PERCENTILE) -> bool:
+    def resolves_percentile(self, histogram: Int[np.ndarray, "codes"], percent: float = PERCENTILE) -> bool:
         """Whether the percentile is above code 0, which may stand for all codes below a floor."""
         return int(histogram[0]) <= (int(histogram.sum()) - 1) * percent / 100
 
-    def tells_edges(self, scale: float, bins: int, histogram: Int[np.ndarray, "codes"]) -> bool:
+    def resolves_edges(self, scale: float, bins: int, histogram: Int[np.ndarray, "codes"]) -> bool:
         """Whether the first and the last code lump together nothing that an edge between bins of `scale` parts."""
         highest = int(histogram[-1]) == 0 or scale * (bins - 1) / bins < self.decode(CODES - 1.0)
         return highest and scale / bins >= self.decode(1.0)

@@ -33,7 +33,7 @@ class RangeEstimate:
     def at(cls, animation: Animation, surface: Descriptor) -> "RangeEstimate":
         """8 to 32 frames, evenly spaced, on about 500 triangles all over; `common` is from every 4th of those."""
         frames = choose_sample_frames(animation.frames, min(max(animation.frames // SHARE, LEAST_FRAMES), FRAMES))
-        looked = surface.thinned(TRIANGLES) if isinstance(surface, TriangleStrain) else surface
+        looked = surface.sample_triangles(TRIANGLES) if isinstance(surface, TriangleStrain) else surface
         at_once = max(AT_ONCE_BYTES // (12 * max(animation.vertex_count, 1)), 1)
         reach, strain, thinned = 0.0, 0.0, [np.zeros(1, np.float32)]
         for start in range(0, len(frames), at_once):

@@ -25,7 +25,7 @@ def measure_strain_at_peaks(
 ) -> Float32[np.ndarray, "peaks columns"]:
     """Strain over `scale`, clipped at 1, of every column at each frame; patch means where that is over `most_bytes`."""
     whole = 4 * len(frames) * body.surface.columns <= most_bytes or body.patches.patches == 0
-    measure = _columns if whole else _patches
+    measure = _strain_of_columns if whole else _strain_of_patches
     blocks = split_into_blocks(len(frames), frames_per_block(animation.vertex_count))
 
     def strain(block: tuple[int, int]) -> np.ndarray:
@@ -43,12 +43,12 @@ def measure_strain_at_peaks(
 Measure = Callable[[MeasuredBody, np.ndarray, float], np.ndarray]
 
 
-def _columns(body: MeasuredBody, vertices: np.ndarray, scale: float) -> np.ndarray:
+def _strain_of_columns(body: MeasuredBody, vertices: np.ndarray, scale: float) -> np.ndarray:
     pieces = [np.minimum(tile.T / np.float32(scale), 1) for _, tile in body.surface.tiles(vertices)]
     return np.concatenate(pieces, axis=1)
 
 
-def _patches(body: MeasuredBody, vertices: np.ndarray, scale: float) -> np.ndarray:
+def _strain_of_patches(body: MeasuredBody, vertices: np.ndarray, scale: float) -> np.ndarray:
     means = body.patches.empty(len(vertices))
     for columns, tile in body.surface.tiles(vertices):
         body.patches.add(columns, np.minimum(tile / np.float32(scale), 1), means)

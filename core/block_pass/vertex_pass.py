@@ -15,7 +15,7 @@ from caesura.core.block_pass.quantisation import Quantisation, find_normalising_
 from caesura.core.block_pass.range_estimate import RangeEstimate
 from caesura.core.descriptors.strain import ROUNDING
 from caesura.core.frames.blocks import Block, frames_per_block, map_blocks, split_into_blocks, threads_at_once
-from caesura.core.kernels.counting import look_up
+from caesura.core.kernels.counting import look_up_bins
 from caesura.core.parameters import Parameters
 from caesura.core.progress import Progress, ignore_progress
 
@@ -27,7 +27,7 @@ STILL_SHARE = 1e-6
 class PassResult:
     """The whole take, measured, on so many threads.
 
-    `largest` is the largest strain, `widest` the largest change of a pair distance.
+    `largest` is the largest strain, `largest_pair_change` the largest change of a pair distance.
     """
 
     block_pass: BlockPass
@@ -36,8 +36,8 @@ class PassResult:
     histogram: Int[np.ndarray, "codes"]
     largest: float
     above_noise: int
-    widest: float
-    described: tuple[np.ndarray, np.ndarray]
+    largest_pair_change: float
+    features: tuple[np.ndarray, np.ndarray]
 
     @property
     def has_strain(self) -> bool:
@@ -52,12 +52,12 @@ class PassResult:
     @property
     def has_pair_changes(self) -> bool:
         """Whether pair distances change by more than rounding."""
-        return self.widest * self.block_pass.body.pairs.size > ROUNDING * self.block_pass.reach
+        return self.largest_pair_change * self.block_pass.body.pairs.size > ROUNDING * self.block_pass.reach
 
     def scale(self, rule: str | float) -> float:
         """The strain that counts as 1; noise has none to count."""
         share = self.share_above_noise if self.has_strain else 0.0
-        return find_normalising_strain(rule, self.block_pass.coding, self.histogram, self.largest, share)
+        return find_normalising_strain(rule, self.block_pass.quantisation, self.histogram, self.largest, share)
 
     def bins(
         self, scale: float, levels: int, progress: Progress = ignore_progress
@@ -67,12 +67,12 @@ class PassResult:
         φ1 = [0, 1/B], φi = ((i−1)/B, i/B]; what is above `scale` is in the last. From the codes where they were
         kept, else from the vertices, drawn once more.
         """
-        bin_of_code = self.block_pass.coding.bins(scale, levels)
+        bin_of_code = self.block_pass.quantisation.bins(scale, levels)
 
         def bins(block: Block) -> np.ndarray:
             codes = self.block_pass.codes(block)
             found = np.empty(codes.shape, np.uint8)
-            look_up(codes, bin_of_code, found)
+            look_up_bins(codes, bin_of_code, found)
             return found
 
         return map_blocks(bins, self.blocks, self.threads, progress=progress, stage="energy", total=len(self.blocks))
@@ -91,53 +91,60 @@ def run_block_pass(
 
     The codes are kept where all of them fit into `memory_bytes`.
     """
-    glance = RangeEstimate.at(animation, body.surface)
-    coding = Quantisation.around(glance.strain)
-    surveyor = BlockPass(
+    estimate = RangeEstimate.at(animation, body.surface)
+    quantisation = Quantisation.for_largest(estimate.strain)
+    block_pass = BlockPass(
         animation,
         body,
-        glance.reach,
-        coding,
-        int(coding.encode(np.full(1, glance.common, np.float32))[0]),
-        body.surface.noise(glance.reach),
+        estimate.reach,
+        quantisation,
+        int(quantisation.encode(np.full(1, estimate.common, np.float32))[0]),
+        body.surface.noise(estimate.reach),
         learn_feature_basis(animation, body, threads, progress),
         np.empty(min(animation.frames * body.surface.columns, memory_bytes // 2), np.uint16),
         ThreadHistograms(),
     )
     blocks = split_into_blocks(animation.frames, frames_per_block(animation.vertex_count))
-    together = threads_at_once(threads, animation.vertex_count, body.surface.columns)
+    used_threads = threads_at_once(threads, animation.vertex_count, body.surface.columns)
     while True:
-        pages = map_blocks(surveyor.measure, blocks, together, progress=progress, stage="strain", total=len(blocks))
-        take = _combine(surveyor, blocks, together, pages)
+        statistics = map_blocks(
+            block_pass.measure, blocks, used_threads, progress=progress, stage="strain", total=len(blocks)
+        )
+        take = _combine(block_pass, blocks, used_threads, statistics)
         better = _better_quantisation(take, parameters)
         if better is None:
             return take
-        surveyor = replace(surveyor, coding=better, floor=0, histograms=ThreadHistograms())
+        block_pass = replace(block_pass, quantisation=better, floor=0, histograms=ThreadHistograms())
 
 
 def _better_quantisation(take: PassResult, parameters: Parameters) -> Quantisation | None:
-    """The coding with which the bins of the take come out right, if its own is not that, or counts from too high."""
-    coding, counts, rule = take.block_pass.coding, take.histogram, parameters.normalize
+    """The quantisation that the bins of the take need, if its own does not do or counts from too high a code."""
+    quantisation, counts, rule = take.block_pass.quantisation, take.histogram, parameters.normalize
     if rule == "p99.9" and take.has_strain:
-        if not coding.reaches_percentile(counts):
-            return coding.wider()
-        if take.block_pass.floor and not coding.tells_percentile(counts):
-            return coding
+        if not quantisation.reaches_percentile(counts):
+            return quantisation.wider()
+        if take.block_pass.floor and not quantisation.resolves_percentile(counts):
+            return quantisation
     scale = take.scale(rule)
-    better = Quantisation.around(scale)
-    return None if better == coding or coding.tells_edges(scale, parameters.bins, counts) else better
+    better = Quantisation.for_largest(scale)
+    return None if better == quantisation or quantisation.resolves_edges(scale, parameters.bins, counts) else better
 
 
-def _combine(surveyor: BlockPass, blocks: list[Block], threads: int, measured: Iterable[BlockStatistics]) -> PassResult:
-    """The pages of a take, in order, as one."""
-    pages = list(measured)
+def _combine(
+    block_pass: BlockPass, blocks: list[Block], threads: int, measured: Iterable[BlockStatistics]
+) -> PassResult:
+    """The statistics of a take, in order, as one."""
+    statistics = list(measured)
     return PassResult(
-        surveyor,
+        block_pass,
         blocks,
         threads,
-        surveyor.histograms.total(),
-        max(page.largest for page in pages),
-        sum(page.above_noise for page in pages),
-        max(page.widest for page in pages),
-        (np.concatenate([page.described[0] for page in pages]), np.concatenate([page.described[1] for page in pages])),
+        block_pass.histograms.total(),
+        max(block.largest for block in statistics),
+        sum(block.above_noise for block in statistics),
+        max(block.largest_pair_change for block in statistics),
+        (
+            np.concatenate([block.features[0] for block in statistics]),
+            np.concatenate([block.features[1] for block in statistics]),
+        ),
     )

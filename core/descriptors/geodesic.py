@@ -37,7 +37,7 @@ class Geodesic:
 
     mesh: Mesh
     net: EdgeGraph
-    sources: tuple["DistanceSource", ...]
+    sources: tuple["SourceRank", ...]
     at_rest: Float32[np.ndarray, "columns 1"]
 
     @classmethod
@@ -72,7 +72,7 @@ class Geodesic:
 
 
 @dataclass(frozen=True)
-class DistanceSource:
+class SourceRank:
     """A point on every piece; how much it counts at each point of its piece; and all points by distance from it."""
 
     seeds: Int[np.ndarray, "pieces"]
@@ -80,7 +80,7 @@ class DistanceSource:
     order: Int32[np.ndarray, "P"]
 
 
-def _sources(net: EdgeGraph, mesh: Mesh) -> Iterator[DistanceSource]:
+def _sources(net: EdgeGraph, mesh: Mesh) -> Iterator[SourceRank]:
     """`SOURCES` points on each piece, by farthest-point sampling along the surface; fewer where it has fewer."""
     cells, count = mesh.cells(), int(net.piece.max()) + 1
     whole = np.bincount(net.piece, weights=cells, minlength=count)
@@ -96,7 +96,7 @@ def _sources(net: EdgeGraph, mesh: Mesh) -> Iterator[DistanceSource]:
     for number, (seeds, order) in enumerate(found):
         share = np.bincount(net.piece, weights=np.where(owner == number, cells, 0), minlength=count) / whole
         if share.any():
-            yield DistanceSource(seeds, share[net.piece].astype(np.float32), order)
+            yield SourceRank(seeds, share[net.piece].astype(np.float32), order)
 
 
 def _distances_from_middle(net: EdgeGraph, mesh: Mesh, weight: Float64[np.ndarray, "P"]) -> Float64[np.ndarray, "P"]:
@@ -113,7 +113,7 @@ def _farthest_point(piece: Int[np.ndarray, "P"], far: Float64[np.ndarray, "P"]) 
 
 
 def _average(
-    net: EdgeGraph, sources: tuple[DistanceSource, ...], rows: Float32[np.ndarray, "P 3 frames"]
+    net: EdgeGraph, sources: tuple[SourceRank, ...], rows: Float32[np.ndarray, "P 3 frames"]
 ) -> Float32[np.ndarray, "P frames"]:
     lengths = np.empty((len(net.edges), rows.shape[2]), np.float32)
     mesh_edges.edge_lengths(rows, net.edges, lengths)

@@ -123,7 +123,7 @@ class Piece:
         """`corners` are numbers of the piece's own points, at `place` at rest."""
         laplacian = Laplacian.of(corners, len(points))
         weights, areas = laplacian.at(place[:, :, None])
-        values, modes = laplacian.smoothest(weights[:, 0], areas[:, 0], MODES)
+        values, modes = laplacian.smoothest_functions(weights[:, 0], areas[:, 0], MODES)
         last, first = np.maximum(values[[-1, 1]], np.finfo(float).tiny)
         times = 4 * np.log(10) / np.geomspace(last, first, TIMES)
         here, there = laplacian.edges.T

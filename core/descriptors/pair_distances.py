@@ -46,7 +46,7 @@ class PairDistances:
         """(distance − distance at rest) / size, float32, no unit: zero for a body that only moves rigidly."""
         members, first, second = self._ends
         rows = np.empty((len(members), 3, len(block)), np.float32)
-        descriptors.gather(block, members, rows)
+        descriptors.gather_rows(block, members, rows)
         changes = np.empty((len(first), len(block)), np.float32)
         descriptors.pair_changes(rows, first, second, self.at_rest, np.float32(1 / (self.size or 1.0)), changes)
         return changes.T

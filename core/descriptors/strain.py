@@ -95,7 +95,7 @@ class TriangleStrain:
             own, out, pieces = rows[: len(part.members)], tile[: len(part.corners)], []
             for start in range(0, len(block), WIDTH):
                 width = min(len(block) - start, WIDTH)
-                descriptors.gather(block[start : start + width], part.members, own)
+                descriptors.gather_rows(block[start : start + width], part.members, own)
                 own[:, :, width:] = own[:, :, width - 1 : width]  # frames that are not there repeat the last
                 lines, factors = own.reshape(-1, 3 * WIDTH), scale[start : start + WIDTH]
                 descriptors.strain_tile(lines, part.corners, part.shapes, factors, self.measure, out)
@@ -103,7 +103,7 @@ class TriangleStrain:
                     pieces.append(out[:, :width].copy())
             yield slice(number * TILE, number * TILE + len(out)), np.concatenate(pieces, axis=1) if pieces else out
 
-    def thinned(self, most: int) -> "TriangleStrain":
+    def sample_triangles(self, most: int) -> "TriangleStrain":
         """About so many of the triangles, evenly spread and packed anew: enough for a look.
 
         All of them where every frame's whole area is needed.
@@ -127,7 +127,7 @@ class TriangleStrain:
         twice = np.zeros(len(block), np.float64)
         for part in self.parts:
             rows = np.empty((len(part.members), 3, len(block)), np.float32)
-            descriptors.gather(block, part.members, rows)
+            descriptors.gather_rows(block, part.members, rows)
             descriptors.add_areas(rows, part.corners, twice)
         smallest = np.finfo(np.float32).tiny * self.areas.sum()
         return np.asarray(np.minimum(2 * self.areas.sum() / np.maximum(twice, smallest), 1e12), np.float32)

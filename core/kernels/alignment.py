@@ -43,7 +43,7 @@ def align_segments(kernel: Floats, weights: Floats, bounds: Ints, out: Floats) -
 
 
 @njit(nogil=True, cache=True, fastmath=FAST)
-def cut_anew(
+def segment_for_groups(
     kernel: Floats, weights: Floats, bounds: Ints, labels: Ints, spread: Floats, longest: int, head: Ints, group: Ints
 ) -> float:
     """The best segmentation against given groups of segments: where the last segment of the first v+1 samples begins
@@ -120,7 +120,7 @@ def _advance(before: Floats, now: Floats, x: int, first: bool, a: float, b: floa
 
 
 @njit(nogil=True, cache=True)
-def persistent_likeness(kernel: Floats, longest: int, out: Floats) -> None:
+def persistent_similarity(kernel: Floats, longest: int, out: Floats) -> None:
     """out[i, j], i < j: the most that i and j are alike together with a pair on their diagonal, up to `longest` away.
 
     Two such pairs (i, j) and (i+w, j+w) raise all four of i, i+w against j, j+w to the lesser of the two.

@@ -63,7 +63,7 @@ def write_codes(tile: Bits, lowest: np.int32, codes: Codes, column: int) -> None
 
 
 @njit(nogil=True, cache=True)
-def look_up(codes: Codes, bin_of_code: Bins, bins: Bins) -> None:
+def look_up_bins(codes: Codes, bin_of_code: Bins, bins: Bins) -> None:
     """bins[f, t] = bin_of_code[codes[f, t]]."""
     for f in range(codes.shape[0]):
         for t in range(codes.shape[1]):

@@ -30,7 +30,7 @@ LINE = 16
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def gather(vertices: Floats, members: Indices, rows: Floats) -> None:
+def gather_rows(vertices: Floats, members: Indices, rows: Floats) -> None:
     """rows[i, axis, f] = vertices[f, members[i], axis]; as many frames at a time as fill a line of the cache."""
     lines = vertices.shape[0] // LINE * LINE
     for start in range(0, lines, LINE):

@@ -48,7 +48,7 @@ class Laplacian:
         weights = self.opposite @ cotangents.reshape(-1, place.shape[2])
         return weights, self.around @ np.repeat(doubled / 2, 3, axis=0)
 
-    def smoothest(
+    def smoothest_functions(
         self, weights: Float64[np.ndarray, "E"], areas: Float64[np.ndarray, "p"], count: int
     ) -> tuple[Float64[np.ndarray, "k"], Float64[np.ndarray, "p k"]]:
         """At most `count` least eigenvalues, ascending, per area, and their functions, orthonormal by area."""

@@ -43,7 +43,7 @@ class Mesh:
     def rows(self, block: Float32[np.ndarray, "frames V 3"]) -> Float32[np.ndarray, "P 3 frames"]:
         """Where the points are, the frames innermost."""
         rows = np.empty((len(self.members), 3, len(block)), np.float32)
-        descriptors.gather(block, self.members, rows)
+        descriptors.gather_rows(block, self.members, rows)
         if self.scale_invariant:
             twice = np.zeros(len(block), np.float64)
             descriptors.add_areas(rows, self.corners, twice)

@@ -15,12 +15,12 @@ from sklearn.metrics import adjusted_rand_score
 from sklearn.pipeline import make_pipeline
 
 from caesura import MotionFeatures, MotionSegmenter, open_animation, segment
-from caesura.samples.figures import figure
+from caesura.samples.figures import build_figure
 
 
 def main(table: Path) -> None:
     """Write the energy curve as CSV, and print how well each method agrees with the truth."""
-    sample = figure("smooth")
+    sample = build_figure("smooth")
     take = open_animation(sample.glb)
     vertices, triangles = np.array(take.vertices(0, take.frames)), take.triangles
     names = [label for label, start, end in sample.truth.segments for _ in range(start, end)]

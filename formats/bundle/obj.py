@@ -6,7 +6,7 @@ import re
 import numpy as np
 
 from caesura.core.limits import Limits
-from caesura.formats.bundle.polygon_mesh import PolygonMesh, malformed_shape, numbers, whole_numbers
+from caesura.formats.bundle.polygon_mesh import PolygonMesh, as_integers, malformed_shape, parse_numbers
 
 LONGEST_FACE = 2**16
 """Bytes of a line with a face: some ten thousand corners."""
@@ -40,8 +40,8 @@ def read_obj(text: bytes, limits: Limits) -> PolygonMesh:
             triangles += max(len(corners) - 2, 1)
             if triangles > limits.max_triangles:
                 limits.check("max_triangles", triangles)
-    places = numbers(b" ".join(vertices))
-    named = whole_numbers(numbers(TEXTURE_AND_NORMAL.sub(b"", b" ".join(faces))))
+    places = parse_numbers(b" ".join(vertices))
+    named = as_integers(parse_numbers(TEXTURE_AND_NORMAL.sub(b"", b" ".join(faces))))
     if len(places) != 3 * len(vertices):
         raise malformed_shape("has a vertex without three numbers")
     if len(named) != sum(sizes) or (named == 0).any():

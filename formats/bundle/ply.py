@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from caesura.core.limits import Limits
-from caesura.formats.bundle.polygon_mesh import PolygonMesh, malformed_shape, numbers, whole_numbers
+from caesura.formats.bundle.polygon_mesh import PolygonMesh, as_integers, malformed_shape, parse_numbers
 
 LONGEST_HEADER = 2**16
 MOST_LISTS = 4
@@ -68,7 +68,7 @@ def read_ply(data: bytes, limits: Limits) -> PolygonMesh:
     """
     elements, is_text, start = _read_header(data, limits)
     # Every number of a text is read as a double: then text is read as binary is.
-    rows = numbers(data[start:]).data.cast("B") if is_text else memoryview(data)[start:]
+    rows = parse_numbers(data[start:]).data.cast("B") if is_text else memoryview(data)[start:]
     mesh = PolygonMesh(np.zeros((0, 3)), np.zeros(0, np.int64), np.zeros(0, np.int64))
     at = 0
     for element in elements:
@@ -78,7 +78,7 @@ def read_ply(data: bytes, limits: Limits) -> PolygonMesh:
         elif element.name == "face" and element.lists:
             limits.check("max_triangles", float(np.maximum(sizes - 2, 1).sum()))
             corners = _read_items(rows, element.lists[element.corners()].item, starts, sizes)
-            mesh = replace(mesh, corners=whole_numbers(corners), sizes=sizes)
+            mesh = replace(mesh, corners=as_integers(corners), sizes=sizes)
         at = end
     if at != len(rows):
         raise malformed_shape("has more rows than its header says")

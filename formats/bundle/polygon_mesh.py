@@ -42,7 +42,7 @@ def malformed_shape(what: str) -> InvalidModel:
     return InvalidModel("malformed-shape", what)
 
 
-def numbers(text: bytes) -> Float[np.ndarray, "N"]:
+def parse_numbers(text: bytes) -> Float[np.ndarray, "N"]:
     """The numbers in a text of nothing else, with spaces or ends of lines between them. Raises `malformed-shape`."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -52,7 +52,7 @@ def numbers(text: bytes) -> Float[np.ndarray, "N"]:
             raise malformed_shape("has something else where a number belongs") from None
 
 
-def whole_numbers(values: Float[np.ndarray, "N"]) -> Int[np.ndarray, "N"]:
+def as_integers(values: Float[np.ndarray, "N"]) -> Int[np.ndarray, "N"]:
     """The same as integers. Raises `malformed-shape`."""
     if not ((np.abs(values) < 2.0**53) & (values == np.floor(values))).all():
         raise malformed_shape("has a face that names a vertex by no whole number")

@@ -40,7 +40,7 @@ def read_shapes(
     """
     names = files.shapes()
     limits.check("max_frames", len(names), "Send fewer files")
-    first = _shape(files, names[0], data, limits)
+    first = _read_shape(files, names[0], data, limits)
     if len(names) < 2:
         raise InvalidModel("no-motion", "The zip has one shape; a motion needs two, numbered in their names.")
     notices = Notices()
@@ -49,7 +49,7 @@ def read_shapes(
     limits.check("max_inflated_bytes", size, "Send fewer files")
     stored = np.frombuffer(scratch(size), np.float32).reshape(len(names), len(first.vertices), 3)
     for frame, name in enumerate(names):
-        shape = _shape(files, name, data, limits) if frame else first
+        shape = _read_shape(files, name, data, limits) if frame else first
         if not shape.has_polygons_of(first):
             raise InvalidModel(
                 "varying-topology",
@@ -63,7 +63,7 @@ def read_shapes(
     return vertex_sequence_from_arrays(stored, triangles, None, None, parameters, limits, notices)
 
 
-def _shape(files: ZipMembers, name: str, data: memoryview, limits: Limits) -> PolygonMesh:
+def _read_shape(files: ZipMembers, name: str, data: memoryview, limits: Limits) -> PolygonMesh:
     raw = bytes(read_member(files, name, data, lambda size: memoryview(bytearray(size))))
     read = read_obj if name.lower().endswith(".obj") else read_ply
     try:

@@ -88,10 +88,10 @@ def _joints(words: Iterator[str], limits: Limits) -> list[BvhJoint]:
     for word in words:
         if word in {"ROOT", "JOINT", "End"}:
             limits.check("max_nodes", len(joints) + 1)
-            name = _until_brace(words)
+            name = _name_before_brace(words)
             parent = above[-1] if above else -1
             if word == "End":  # which has no name of its own
-                name = _end_of(joints[parent].name if above else "")
+                name = _end_site_name(joints[parent].name if above else "")
             above.append(len(joints))
             joints.append(BvhJoint(name, parent))
         elif word == "OFFSET" and above:
@@ -107,12 +107,12 @@ def _joints(words: Iterator[str], limits: Limits) -> list[BvhJoint]:
     return joints
 
 
-def _end_of(parent: str) -> str:
+def _end_site_name(parent: str) -> str:
     """The name of an end, which has none of its own; an end below an end is called the same."""
     return parent if parent.endswith(" end") else f"{parent} end"
 
 
-def _until_brace(words: Iterator[str]) -> str:
+def _name_before_brace(words: Iterator[str]) -> str:
     """The name before a brace, which in some files has spaces."""
     name: list[str] = []
     letters = 0

@@ -10,8 +10,8 @@ from jaxtyping import Float, Shaped
 
 from caesura.core.limits import Limits
 from caesura.formats.clips.animation_only import strip_meshes
-from caesura.formats.clips.binary_chunk import BinaryChunk, without_unused
-from caesura.formats.clips.buffer_references import exclusive_accessors, parts
+from caesura.formats.clips.binary_chunk import BinaryChunk, drop_unused_bytes
+from caesura.formats.clips.buffer_references import accessor_ranges, exclusive_accessors
 from caesura.formats.clips.self_contained_gltf import SelfContainedGltf
 from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.geometry.accessors import AccessorLayout, Accessors
@@ -52,7 +52,9 @@ class AnimationReplacement:
         if not self._bare:
             self._free = exclusive_accessors(self._file.json, gone)
             accessors = self._file.json.get("accessors", [])
-            self._opened = {part["bufferView"] for number in self._free for part, _ in parts(accessors[number])}
+            self._opened = {
+                part["bufferView"] for number in self._free for part, _ in accessor_ranges(accessors[number])
+            }
 
     def add(self, take: int, animations: list[dict[str, Any]]) -> None:
         """Put animations in where the animation `take` was, or after it."""
@@ -83,7 +85,7 @@ class AnimationReplacement:
         root = self._file.json
         for number in self._free:
             root["accessors"][number] = dict(UNUSED_ACCESSOR)
-        chunk = without_unused(self._file, self._opened)
+        chunk = drop_unused_bytes(self._file, self._opened)
         self._append_new(chunk)
         root["animations"] = self._ordered()
         if chunk.length:

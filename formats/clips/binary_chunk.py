@@ -4,7 +4,7 @@ from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from caesura.formats.clips.buffer_references import Range, parts, views_of_others, whole_view
+from caesura.formats.clips.buffer_references import Range, accessor_ranges, views_of_others, whole_view
 from caesura.formats.clips.self_contained_gltf import SelfContainedGltf, byte_ranges_of_view
 from caesura.formats.gltf.document import COMPRESSED
 
@@ -22,7 +22,7 @@ class BinaryChunk:
 
     def __init__(self, pieces: list[tuple[int, memoryview]], kept: Iterable[Range]) -> None:
         self._pieces, self._new = pieces, list[tuple[int, bytes]]()
-        self._kept = _joined((start - start % ALIGNED, end) for start, end in kept)
+        self._kept = _merge_ranges((start - start % ALIGNED, end) for start, end in kept)
         self._places: list[int] = []
         self.length = 0
         for start, end in self._kept:
@@ -33,7 +33,7 @@ class BinaryChunk:
         self._new.append((self._take(len(data)), data))
         return self._new[-1][0]
 
-    def moved(self, offset: int) -> int:
+    def new_offset(self, offset: int) -> int:
         """Where a byte is that was at `offset`."""
         rank = bisect_right(self._kept, (offset, 2**63)) - 1
         return self._places[rank] + offset - self._kept[rank][0]
@@ -63,7 +63,7 @@ class BinaryChunk:
         yield from self._new
 
 
-def without_unused(file: SelfContainedGltf, opened: set[int]) -> BinaryChunk:
+def drop_unused_bytes(file: SelfContainedGltf, opened: set[int]) -> BinaryChunk:
     """Drop the views that nothing refers to, and of the views `opened` the bytes that no accessor does.
 
     Views and accessors of the JSON are moved with their bytes; none are where an extension of a view may say where
@@ -71,7 +71,7 @@ def without_unused(file: SelfContainedGltf, opened: set[int]) -> BinaryChunk:
     """
     root = file.json
     views: list[dict[str, Any]] = root.get("bufferViews", [])
-    named = [(part, size) for accessor in root.get("accessors", []) for part, size in parts(accessor)]
+    named = [(part, size) for accessor in root.get("accessors", []) for part, size in accessor_ranges(accessor)]
     others = views_of_others(root)
     apart = {
         n for n in opened - others if not {"extensions", "byteStride"} & views[n].keys() and not views[n]["buffer"]
@@ -93,7 +93,7 @@ def without_unused(file: SelfContainedGltf, opened: set[int]) -> BinaryChunk:
         elif number in whole:
             for part in byte_ranges_of_view(view):
                 if part["buffer"] == 0:
-                    _place(part, chunk.moved(part.get("byteOffset", 0)))
+                    _put_part(part, chunk.new_offset(part.get("byteOffset", 0)))
         else:
             views[number] = dict(UNUSED_VIEW)
     return chunk
@@ -102,20 +102,20 @@ def without_unused(file: SelfContainedGltf, opened: set[int]) -> BinaryChunk:
 def _shrink(view: dict[str, Any], named: list[tuple[dict[str, Any], int, int]], chunk: BinaryChunk) -> None:
     """Let a view reach from the first byte that an accessor names to the last."""
     first = min(begin for _, begin, _ in named)
-    start = chunk.moved(first - first % ALIGNED)
+    start = chunk.new_offset(first - first % ALIGNED)
     for part, begin, _ in named:
-        _place(part, chunk.moved(begin) - start)
-    _place(view, start)
-    view["byteLength"] = chunk.moved(max(end for _, _, end in named) - 1) + 1 - start
+        _put_part(part, chunk.new_offset(begin) - start)
+    _put_part(view, start)
+    view["byteLength"] = chunk.new_offset(max(end for _, _, end in named) - 1) + 1 - start
 
 
-def _place(part: dict[str, Any], offset: int) -> None:
+def _put_part(part: dict[str, Any], offset: int) -> None:
     part["byteOffset"] = offset
     if not offset:
         del part["byteOffset"]
 
 
-def _joined(ranges: Iterable[Range]) -> list[Range]:
+def _merge_ranges(ranges: Iterable[Range]) -> list[Range]:
     """The same bytes as few ranges, in order and apart."""
     joined: list[Range] = []
     for start, end in sorted(ranges):

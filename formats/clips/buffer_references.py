@@ -38,7 +38,7 @@ def views_of_others(json: dict[str, Any]) -> set[int]:
     return images | matrices | geometry | set(_numbers_in_extensions(json))
 
 
-def parts(accessor: dict[str, Any]) -> Iterator[tuple[dict[str, Any], int]]:
+def accessor_ranges(accessor: dict[str, Any]) -> Iterator[tuple[dict[str, Any], int]]:
     """What an accessor is made of: each object that names a view and an offset in it, and so many bytes there."""
     element = WIDTHS[accessor["type"]] * _size(accessor["componentType"])
     if "bufferView" in accessor:

@@ -45,14 +45,14 @@ def cut_channel(keys: ChannelKeys, start: float, end: float, origin: float) -> C
     if keys.interpolation == "STEP":
         picked = np.searchsorted(keys.times, [start + near, end + near], "right") - 1
         rows = np.concatenate([[max(picked[0], 0)], np.arange(first, last), [max(picked[1], 0)]])
-        return _reduce_to_one_key(keys, _increasing(ChannelPart(seconds, keys.stored[rows])))
+        return _reduce_to_one_key(keys, _drop_equal_times(ChannelPart(seconds, keys.stored[rows])))
     if keys.is_spline:
         return _reduce_to_one_key(
-            keys, _increasing(_spline(keys, start, end, slice(first, last), (on_start, on_end), origin))
+            keys, _drop_equal_times(_spline(keys, start, end, slice(first, last), (on_start, on_end), origin))
         )
     edges = keys.at(np.array([start, end]))[:, None]
     values = np.concatenate([edges[:1], keys.rows[first:last], edges[1:]]).astype(np.float32)
-    return _reduce_to_one_key(keys, _increasing(ChannelPart(seconds, values)))
+    return _reduce_to_one_key(keys, _drop_equal_times(ChannelPart(seconds, values)))
 
 
 def extend_to_clip(part: ChannelPart, start: float, end: float, origin: float) -> ChannelPart:
@@ -91,7 +91,7 @@ def _spline(
     return ChannelPart((times - origin).astype(np.float32), rows.astype(np.float32))
 
 
-def _increasing(part: ChannelPart) -> ChannelPart:
+def _drop_equal_times(part: ChannelPart) -> ChannelPart:
     """Without keys that rounding has put at the time of another; the ends stay, or the first where all are one."""
     if part.times[0] == part.times[-1]:
         return ChannelPart(part.times[:1], part.values[:1])

@@ -20,7 +20,7 @@ class TakeChannel:
     target: dict[str, Any]
     keys: ChannelKeys
     output: AccessorLayout
-    more: dict[str, Any]
+    sampler_extras: dict[str, Any]
 
 
 def take_channels(file: AnimationReplacement, take: int, *, nodes_only: bool = False) -> Iterator[TakeChannel]:

@@ -16,7 +16,7 @@ def number_repeated_names(motions: Iterable[tuple[str, bool]], taken: Iterable[s
     Each is unique, in any case of letters, also among the names already `taken`.
     """
     used = {name.casefold() for name in taken}
-    wanted = [(safe_name(name), loops) for name, loops in motions]
+    wanted = [(engine_safe_name(name), loops) for name, loops in motions]
     digits = max(2, len(str(max(Counter(name for name, _ in wanted).values(), default=0))))
     count: Counter[str] = Counter()
     names = []
@@ -31,7 +31,7 @@ def number_repeated_names(motions: Iterable[tuple[str, bool]], taken: Iterable[s
     return names
 
 
-def safe_name(name: str) -> str:
+def engine_safe_name(name: str) -> str:
     """Letters, digits, `_` and `-` of any script: dots, slashes, colons, brackets and spaces mean something to
     one engine or another."""
     plain = re.sub(r"[^\w-]+", "_", unicodedata.normalize("NFC", name)).strip("_-")

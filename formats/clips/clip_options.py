@@ -54,14 +54,14 @@ class ClipOptions(BaseModel):
         chosen = self.model_dump(exclude_defaults=True)
         return urlencode({name: str(chosen[name]).lower() if chosen[name] is True else chosen[name] for name in chosen})
 
-    def looping(self) -> set[str]:
+    def loop_names(self) -> set[str]:
         """The names in `loop`."""
-        return _listed(self.loop)
+        return _split_names(self.loop)
 
-    def discarded(self) -> set[str]:
+    def discard_names(self) -> set[str]:
         """The names in `discard`."""
-        return _listed(self.discard)
+        return _split_names(self.discard)
 
 
-def _listed(names: str) -> set[str]:
+def _split_names(names: str) -> set[str]:
     return {name.strip() for name in names.split(",") if name.strip()}

@@ -67,15 +67,15 @@ def plan_clips(
     `ParameterError` for a motion that there is not, `no-clips` where nothing is left, and `handles-too-long`.
     """
     looping, discarded = (
-        _check_motion_names(document, "loop", options.looping()),
-        _check_motion_names(document, "discard", options.discarded()),
+        _check_motion_names(document, "loop", options.loop_names()),
+        _check_motion_names(document, "discard", options.discard_names()),
     )
     pieces = [
         piece
         for segment in document.segments
         if segment.name not in discarded and (options.keep_discarded or not segment.discard)
-        for part in _parts(segment, options.split_repeats)
-        for piece in _pieces(document, segment, part, stretches)
+        for part in _split_at_repeats(segment, options.split_repeats)
+        for piece in _pieces_in_takes(document, segment, part, stretches)
         if piece.end - piece.start >= options.min_seconds
     ]
     if not pieces:
@@ -122,7 +122,7 @@ def _clip(document: SegmentationDocument, options: ClipOptions, name: str, piece
     )
 
 
-def _pieces(
+def _pieces_in_takes(
     document: SegmentationDocument, segment: Segment, part: Interval, stretches: Sequence[TakeRange]
 ) -> Iterator[_Piece]:
     """A part of a segment in each take that it touches."""
@@ -135,7 +135,7 @@ def _pieces(
             yield _Piece(segment, stretch, Interval(start=start, end=end), begin, min(until, stretch.until))
 
 
-def _parts(segment: Segment, split: bool) -> tuple[Interval, ...]:
+def _split_at_repeats(segment: Segment, split: bool) -> tuple[Interval, ...]:
     return segment.repeats if split and segment.repeats else (Interval(start=segment.start, end=segment.end),)
 
 

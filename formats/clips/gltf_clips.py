@@ -84,4 +84,4 @@ def _sampler(file: AnimationReplacement, channel: TakeChannel, part: ChannelPart
         more = {"normalized": True} if stored_as_integers else {}
         output = file.array(part.values, layout.type, layout.width, more)
     named = {} if interpolation == "LINEAR" else {"interpolation": interpolation}
-    return {"input": file.times(part.times), "output": output, **named, **channel.more}
+    return {"input": file.times(part.times), "output": output, **named, **channel.sampler_extras}

@@ -21,7 +21,7 @@ NAME = "key_frames"
 
 def write_gltf_key_poses(file: AnimationReplacement, document: SegmentationDocument) -> Iterator[bytes]:
     """The uploaded glTF, its take replaced by the key poses, each at its own time in the take."""
-    _check(document)
+    _require_key_frames(document)
     stretches = [s for s in gltf_take_ranges(file, document) if _frames(document, s)]
     file.remove({stretch.take for stretch in stretches})
     names = [NAME] if len(stretches) == 1 else number_repeated_names([(NAME, False)] * len(stretches), ())
@@ -35,7 +35,12 @@ def write_gltf_key_poses(file: AnimationReplacement, document: SegmentationDocum
             )
             tracks.add(
                 channel.target,
-                {"input": file.times(_not_later(exact)), "output": output, "interpolation": "STEP", **channel.more},
+                {
+                    "input": file.times(_round_down_to_float32(exact)),
+                    "output": output,
+                    "interpolation": "STEP",
+                    **channel.sampler_extras,
+                },
             )
         source = file.document.animations[stretch.take].value
         file.add(stretch.take, [tracks.animation(name, source, _extras(document, frames))])
@@ -44,9 +49,9 @@ def write_gltf_key_poses(file: AnimationReplacement, document: SegmentationDocum
 
 def write_npz_key_poses(animation: Animation, document: SegmentationDocument) -> Iterator[bytes]:
     """A vertex sequence's key poses as morph targets of the first one, each on until the next."""
-    _check(document)
+    _require_key_frames(document)
     frames = [key.frame for key in document.key_frames]
-    seconds = _not_later(animation.start_seconds + np.array(frames) / document.frame_rate)
+    seconds = _round_down_to_float32(animation.start_seconds + np.array(frames) / document.frame_rate)
     poses = [animation.vertices(frame, frame + 1)[0] for frame in frames]
     out = GlbWriter()
     targets = [pose - poses[0] for pose in poses[1:]]
@@ -58,7 +63,7 @@ def write_npz_key_poses(animation: Animation, document: SegmentationDocument) ->
     yield out.to_bytes(_extras(document, frames))
 
 
-def _check(document: SegmentationDocument) -> None:
+def _require_key_frames(document: SegmentationDocument) -> None:
     if not document.key_frames:
         detail = "The result has no key-frames. Ask for a lower threshold or a shorter keyframe_window_seconds."
         raise InvalidModel("no-key-frames", detail)
@@ -68,7 +73,7 @@ def _frames(document: SegmentationDocument, stretch: TakeRange) -> list[int]:
     return [key.frame for key in document.key_frames if stretch.first <= key.frame < stretch.end]
 
 
-def _not_later(seconds: Float[np.ndarray, "keys"]) -> Float[np.ndarray, "keys"]:
+def _round_down_to_float32(seconds: Float[np.ndarray, "keys"]) -> Float[np.ndarray, "keys"]:
     """As float32, none later than meant: at its own frame a key pose is there already."""
     rounded = seconds.astype(np.float32)
     return np.where(rounded > seconds, np.nextafter(rounded, np.float32(0)), rounded)

@@ -44,12 +44,12 @@ def _resample(times: Times, rows: Rows) -> tuple[Times, Rows]:
         seconds = times[0] + share * (times[1] - times[0])
         value, slope = _normalise_rows(*_hermite(times, rows, share))
         traced = np.stack([slope, value, slope], axis=1)
-        if pieces >= MOST_PIECES or _distance(times, rows, seconds, traced) <= CLOSE:
+        if pieces >= MOST_PIECES or _largest_deviation(times, rows, seconds, traced) <= CLOSE:
             return seconds, traced
         pieces *= 2
 
 
-def _distance(times: Times, rows: Rows, seconds: Times, traced: Rows) -> float:
+def _largest_deviation(times: Times, rows: Rows, seconds: Times, traced: Rows) -> float:
     """How far the traced curve is from the one meant, in the middle of each piece and beside it."""
     worst = 0.0
     for place in (0.25, 0.5, 0.75):

@@ -18,12 +18,12 @@ class SelfContainedGltf:
     """`json` is a copy to be changed at will; `pieces` are (offset, bytes) of the binary chunk, `length` long."""
 
     def __init__(self, document: GltfDocument) -> None:
-        self.json: dict[str, Any] = _copied(document.root.value)
+        self.json: dict[str, Any] = _deep_copy(document.root.value)
         self.pieces: list[tuple[int, memoryview]] = []
         self.length = 0
         self._document = document
         self._join_buffers()
-        self._take_in_images()
+        self._embed_images()
 
     def append(self, data: memoryview) -> int:
         """Add bytes, aligned as any number may ask for, and say where they are."""
@@ -54,10 +54,10 @@ class SelfContainedGltf:
         first = {k: v for k, v in self.json["buffers"][0].items() if k != "uri"} if self._document.buffers else {}
         self.json["buffers"] = [{} if stand_ins[:1] == [0] else first, *kept]
 
-    def _take_in_images(self) -> None:
+    def _embed_images(self) -> None:
         """An image sent beside the model goes into it; one that was not sent, or is on nothing, keeps its address."""
         for number, image in enumerate(self.json.get("images", [])):
-            if not self._shows(number):
+            if not self._is_texture_image(number):
                 continue
             uri = image.get("uri")
             name = next((n for n in (uri, unquote(uri)) if n in self._document.parts), "") if uri else ""
@@ -70,7 +70,7 @@ class SelfContainedGltf:
             del image["uri"]
             image |= {"bufferView": len(views) - 1, "mimeType": kind}
 
-    def _shows(self, image: int) -> bool:
+    def _is_texture_image(self, image: int) -> bool:
         """Whether a texture has the image, by itself or by an extension, or an extension of the file may."""
         textures = self.json.get("textures", [])
         named = (kind.get("source") for t in textures for kind in (t, *t.get("extensions", {}).values()))
@@ -85,7 +85,7 @@ def byte_ranges_of_view(view: dict[str, Any]) -> Iterator[dict[str, Any]]:
             yield view["extensions"][name]
 
 
-def _copied(value: dict[str, Any]) -> dict[str, Any]:
+def _deep_copy(value: dict[str, Any]) -> dict[str, Any]:
     """All of it, to be changed; refused where it is nested deeper than can be copied, though it could be read."""
     try:
         return copy.deepcopy(value)

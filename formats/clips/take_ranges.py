@@ -16,7 +16,7 @@ def gltf_take_ranges(file: AnimationReplacement, document: SegmentationDocument)
     """One for each take that was drawn."""
     parameters = Parameters.model_validate(document.parameters)
     if document.source.take != ALL:
-        return [_one(file, document, parameters)]
+        return [_take_range(file, document, parameters)]
     rate, stretches = document.frame_rate, []
     film = -round(document.source.start_seconds * rate)  # where the take begins among the frames that were drawn
     for take in range(len(file.document.animations)):
@@ -35,7 +35,7 @@ def gltf_take_ranges(file: AnimationReplacement, document: SegmentationDocument)
     return stretches
 
 
-def _one(file: AnimationReplacement, document: SegmentationDocument, parameters: Parameters) -> TakeRange:
+def _take_range(file: AnimationReplacement, document: SegmentationDocument, parameters: Parameters) -> TakeRange:
     take = document.source.take
     channels = read_channels(file.document, file.accessors, file.document.animations[take])
     duration, start = last_key_seconds(file.accessors, channels), document.source.start_seconds

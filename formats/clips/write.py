@@ -40,7 +40,7 @@ def write_clips(parts: Parts, document: SegmentationDocument, options: ClipOptio
 
     Raises `ParameterError` where the options leave nothing, or name what there is not.
     """
-    gltf, animation = _opened(parts, document, scratch)
+    gltf, animation = _open_upload(parts, document, scratch)
     if animation is not None:
         start = animation.start_seconds
         last = start + (animation.frames - 1) / animation.frame_rate
@@ -64,13 +64,13 @@ def write_clips(parts: Parts, document: SegmentationDocument, options: ClipOptio
 
 def write_key_poses(parts: Parts, document: SegmentationDocument, scratch: Scratch) -> WrittenFile:
     """The key-frames as a GLB whose one animation steps from pose to pose; raises `no-key-frames`."""
-    gltf, animation = _opened(parts, document, scratch)
+    gltf, animation = _open_upload(parts, document, scratch)
     if animation is not None:
         return WrittenFile(GLB, write_npz_key_poses(animation, document))
     return WrittenFile(GLB, write_gltf_key_poses(AnimationReplacement(gltf), document))
 
 
-def _opened(
+def _open_upload(
     parts: Parts, document: SegmentationDocument, scratch: Scratch
 ) -> tuple[Mapping[str, memoryview], Animation | None]:
     """The glTF that the upload is or is read as, by its parts; or else its vertices."""

@@ -34,15 +34,15 @@ class JsonObject:
         value = self.value.get(name)
         if type(value) is int and 0 <= value < count:
             return value
-        raise self.refusal(f"{name} must be the number of one of {count} {of}, not {_shown(value)}.", code, name)
+        raise self.refusal(f"{name} must be the number of one of {count} {of}, not {_one_line(value)}.", code, name)
 
     def whole(self, name: str, default: int | None = None, code: str = "invalid-gltf") -> int:
         """The member `name`, an integer of at least 0; its absence is `default`, unless that is None."""
         value = self.value.get(name, default)
         if type(value) is not int:
-            raise self.refusal(f"{name} must be a whole number, not {_shown(value)}.", name=name)
+            raise self.refusal(f"{name} must be a whole number, not {_one_line(value)}.", name=name)
         if value < 0:
-            raise self.refusal(f"{name} must not be negative, as {_shown(value)} is.", code, name)
+            raise self.refusal(f"{name} must not be negative, as {_one_line(value)} is.", code, name)
         return min(value, BEYOND)
 
     def text(self, name: str, default: str | None = None) -> str:
@@ -50,21 +50,21 @@ class JsonObject:
         value = self.value.get(name, default)
         if isinstance(value, str):
             return _utf8(value)
-        raise self.refusal(f"{name} must be text, not {_shown(value)}.", name=name)
+        raise self.refusal(f"{name} must be text, not {_one_line(value)}.", name=name)
 
     def choice(self, name: str, known: tuple[str, ...], default: str | None = None) -> str:
         """The member `name`, which must be one of the `known` words."""
         value = self.text(name, default)
         if value in known:
             return value
-        raise self.refusal(f"{name} must be one of {', '.join(known)}, not {_shown(value)}.", name=name)
+        raise self.refusal(f"{name} must be one of {', '.join(known)}, not {_one_line(value)}.", name=name)
 
     def flag(self, name: str) -> bool:
         """The member `name`, true or false; its absence is false."""
         value = self.value.get(name, False)
         if isinstance(value, bool):
             return value
-        raise self.refusal(f"{name} must be true or false, not {_shown(value)}.", name=name)
+        raise self.refusal(f"{name} must be true or false, not {_one_line(value)}.", name=name)
 
     def numbers(self, name: str, length: int | None, default: tuple[float, ...]) -> tuple[float, ...]:
         """The member `name`, so many finite numbers; any number of them where `length` is None."""
@@ -72,12 +72,12 @@ class JsonObject:
         if values is None and name not in self.value:
             return default
         if not isinstance(values, list) or length not in (None, len(values)):
-            raise self.refusal(f"{name} must be a list of {length or ''} numbers, not {_shown(values)}.", name=name)
+            raise self.refusal(f"{name} must be a list of {length or ''} numbers, not {_one_line(values)}.", name=name)
         return tuple(self._number(name, value) for value in values)
 
     def _number(self, name: str, value: Any) -> float:
         if type(value) not in (int, float):
-            raise self.refusal(f"{name} must hold numbers, not {_shown(value)}.", name=name)
+            raise self.refusal(f"{name} must hold numbers, not {_one_line(value)}.", name=name)
         try:
             number = float(value)
         except OverflowError:
@@ -93,21 +93,21 @@ class JsonObject:
         value = self.value[name]
         if isinstance(value, dict):
             return JsonObject(value, f"{self.pointer}/{name}")
-        raise self.refusal(f"{name} must be an object, not {_shown(value)}.", name=name)
+        raise self.refusal(f"{name} must be an object, not {_one_line(value)}.", name=name)
 
     def values(self, name: str) -> list[Any]:
         """The member `name`, a list; its absence is an empty one."""
         value = self.value.get(name, [])
         if isinstance(value, list):
             return value
-        raise self.refusal(f"{name} must be a list, not {_shown(value)}.", name=name)
+        raise self.refusal(f"{name} must be a list, not {_one_line(value)}.", name=name)
 
     def entries(self, name: str) -> "list[JsonObject]":
         """The member `name`, a list of objects; its absence is an empty one."""
         values = self.values(name)
         for place, value in enumerate(values):
             if not isinstance(value, dict):
-                raise self.refusal(f"{name} must hold objects, not {_shown(value)}.", name=f"{name}/{place}")
+                raise self.refusal(f"{name} must hold objects, not {_one_line(value)}.", name=f"{name}/{place}")
         return [JsonObject(value, f"{self.pointer}/{name}/{place}") for place, value in enumerate(values)]
 
     def extension(self, *names: str) -> "JsonObject | None":
@@ -138,7 +138,7 @@ def _text(told: str) -> str:
     return _utf8(told if len(told) <= LONGEST else f"{told[:LONGEST]}…")
 
 
-def _shown(value: Any) -> str:
+def _one_line(value: Any) -> str:
     """A value as a person may read it in one line, however large it is."""
     if isinstance(value, dict):
         return "an object"

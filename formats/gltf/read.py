@@ -13,7 +13,7 @@ from caesura.formats.frame_rate import ASSUMED, estimate_key_rate
 from caesura.formats.gltf.animation.channels import Channel
 from caesura.formats.gltf.animation.key_times import MOST_KEYS
 from caesura.formats.gltf.animation.sampled_take import SceneSize, join_all_takes, sample_one_take
-from caesura.formats.gltf.animation.sampling import KeyTracks, Slots, read_tracks
+from caesura.formats.gltf.animation.sampling import KeyTracks, PoseSlots, read_tracks
 from caesura.formats.gltf.animation.take import find_chosen_takes
 from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.geometry.accessors import Accessors
@@ -32,9 +32,9 @@ def read_gltf(data: memoryview, parts: Mapping[str, memoryview], parameters: Par
     nodes = scene_nodes(document, graph)
     chosen = find_chosen_takes(document, accessors, parameters.take)
     channels = [channel for take in chosen for channel in take.channels]
-    figure = read_scene_mesh(document, accessors, graph, nodes) or _skeleton_figure(document, graph, nodes, channels)
+    figure = read_scene_mesh(document, accessors, graph, nodes) or _joints_as_figure(document, graph, nodes, channels)
     skeleton, still, slots = read_skeleton(graph, figure)
-    still, weight_slots = _with_weights(document, graph, figure, still)
+    still, weight_slots = _append_morph_weights(document, graph, figure, still)
     tracks = [read_tracks(accessors, take.channels, still, slots, weight_slots) for take in chosen]
     rate = _rate(document, parameters, max(tracks, key=lambda take: take.duration))
 
@@ -56,11 +56,11 @@ def read_gltf(data: memoryview, parts: Mapping[str, memoryview], parameters: Par
         take=course.take,
         start_seconds=course.start_seconds,
         gltf={**parts, "": data} if len(chosen) == 1 and not figure.instanced else None,
-        notices=document.notices.told(),
+        notices=document.notices.in_order(),
     )
 
 
-def _skeleton_figure(document: GltfDocument, graph: NodeGraph, nodes: list[int], channels: list[Channel]) -> SceneMesh:
+def _joints_as_figure(document: GltfDocument, graph: NodeGraph, nodes: list[int], channels: list[Channel]) -> SceneMesh:
     """The joints that move, where there is no mesh: nodes that are animated, and all below them."""
     moving = {channel.node for channel in channels}
     joints = []
@@ -75,11 +75,11 @@ def _skeleton_figure(document: GltfDocument, graph: NodeGraph, nodes: list[int],
     return joints_as_scene_mesh(np.array(joints, np.int64))
 
 
-def _with_weights(
+def _append_morph_weights(
     document: GltfDocument, graph: NodeGraph, figure: SceneMesh, still: Float[np.ndarray, "numbers"]
-) -> tuple[Float[np.ndarray, "more"], Slots]:
+) -> tuple[Float[np.ndarray, "more"], PoseSlots]:
     """The still pose with morph weights after it, and where those of each node begin."""
-    slots: Slots = {}
+    slots: PoseSlots = {}
     rows = [still]
     length = len(still)
     for node in {part.node: None for part in figure.parts if part.targets is not None}:

@@ -60,7 +60,7 @@ def read_scene_mesh(
 
     Raises `no-mesh` where they have meshes without a triangle, and whatever is wrong with them.
     """
-    drawn = _drawn(document, accessors, graph, nodes)
+    drawn = _drawn_primitives(document, accessors, graph, nodes)
     if not drawn:
         return None
     if not any(found and instances.count for _, _, found, instances in drawn):
@@ -93,7 +93,7 @@ def joints_as_scene_mesh(nodes: Int[np.ndarray, "V"]) -> SceneMesh:
     )
 
 
-def _drawn(
+def _drawn_primitives(
     document: GltfDocument, accessors: Accessors, graph: NodeGraph, nodes: list[int]
 ) -> list[tuple[int, JsonObject, list[PrimitiveHeader], MeshInstances]]:
     """Every node with a mesh and its primitives, counted after instancing and before anything is decoded."""

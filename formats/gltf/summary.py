@@ -46,14 +46,14 @@ def estimate_scene_size(root: JsonObject) -> tuple[int, int]:
     sizes = [_size_of_mesh(accessors, mesh) for mesh in meshes]
     nodes = _list(root.value, "nodes")
     used = [
-        (sizes[number], _times(accessors, node))
+        (sizes[number], _instance_count(accessors, node))
         for node in nodes
         if (number := _place(node, "mesh", len(meshes))) is not None
     ]
     return sum(times * size[0] for size, times in used), sum(times * size[1] for size, times in used)
 
 
-def _times(accessors: list[Any], node: Any) -> int:
+def _instance_count(accessors: list[Any], node: Any) -> int:
     """How often a node draws its mesh."""
     if not isinstance(node, dict) or "skin" in node:
         return 1

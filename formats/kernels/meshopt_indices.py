@@ -47,9 +47,9 @@ def decode_triangles(data: Bytes, out: Words) -> bool:
     for i in range(len(out)):
         code = data[1 + i] & 255
         if code < 0xF0:
-            good = _beside_an_edge(code, data, end, state, edges, vertices, out[i])
+            good = _edge_triangle(code, data, end, state, edges, vertices, out[i])
         else:
-            good = _alone(code, table, data, end, state, vertices, out[i])
+            good = _vertex_triangle(code, table, data, end, state, vertices, out[i])
             if good:
                 _push_edge(edges, state, out[i, 1], out[i, 0])
         if not good:
@@ -60,7 +60,7 @@ def decode_triangles(data: Bytes, out: Words) -> bool:
 
 
 @exact
-def _beside_an_edge(code: int, data: Bytes, end: int, state: Words, edges: Words, vertices: Words, out: Words) -> bool:
+def _edge_triangle(code: int, data: Bytes, end: int, state: Words, edges: Words, vertices: Words, out: Words) -> bool:
     """A recent edge, and a vertex that is next, recent, near the last one, or told."""
     edge, way = code >> 4, code & 15
     place = (state[EDGES] - 1 - edge) & 15
@@ -82,7 +82,7 @@ def _beside_an_edge(code: int, data: Bytes, end: int, state: Words, edges: Words
 
 
 @exact
-def _alone(code: int, table: Bytes, data: Bytes, end: int, state: Words, vertices: Words, out: Words) -> bool:
+def _vertex_triangle(code: int, table: Bytes, data: Bytes, end: int, state: Words, vertices: Words, out: Words) -> bool:
     """Three vertices, each next, recent, or told, as a byte of the table or of the data says."""
     if code >= 0xFE:
         if state[AT] >= end:

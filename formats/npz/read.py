@@ -38,7 +38,7 @@ def read_npz(
     check_shapes(headers, names, limits)
 
     def array(what: str) -> Shaped[np.ndarray, "..."]:
-        return _array(archive, names[what], headers[what], data, scratch)
+        return _read_array(archive, names[what], headers[what], data, scratch)
 
     triangles = check_triangles(array("triangles"), headers["vertices"].shape[1], notices)
     stored_rate = _frame_rate(array("frame_rate")) if "frame_rate" in names else None
@@ -71,7 +71,7 @@ def vertex_sequence_from_arrays(
         frame_rate=fps,
         take=Take(0, "vertices", duration, frames, fps),
         start_seconds=start,
-        notices=notices.told(),
+        notices=notices.in_order(),
     )
 
 
@@ -80,7 +80,7 @@ def _close_to_integer(frame: float) -> float:
     return float(round(frame)) if abs(frame - round(frame)) < 1e-6 else frame
 
 
-def _array(
+def _read_array(
     archive: Archive, name: str, header: NpyHeader, data: memoryview, scratch: Callable[[int], memoryview]
 ) -> Shaped[np.ndarray, "..."]:
     if archive.is_stored(name):

@@ -13,7 +13,7 @@ from jaxtyping import Shaped
 
 from caesura.formats.gltf.writer import COMPONENTS, SHAPES
 
-Draw = Callable[[], Shaped[np.ndarray, "..."]]
+DrawValues = Callable[[], Shaped[np.ndarray, "..."]]
 
 
 class GlbStream:
@@ -21,7 +21,7 @@ class GlbStream:
 
     def __init__(self) -> None:
         self.parts: dict[str, list[dict[str, Any]]] = {}
-        self._draws: list[tuple[int, Draw]] = []
+        self._draws: list[tuple[int, DrawValues]] = []
         self._length = 0
 
     def add(self, kind: str, part: dict[str, Any]) -> int:
@@ -36,9 +36,9 @@ class GlbStream:
         if bounds:
             flat = values.reshape(len(values), -1)
             extent = {"min": flat.min(axis=0).tolist(), "max": flat.max(axis=0).tolist()}
-        return self.drawn(values.dtype.name, values.shape, lambda: values, **extent)
+        return self.streamed_accessor(values.dtype.name, values.shape, lambda: values, **extent)
 
-    def drawn(self, dtype: str, shape: tuple[int, ...], draw: Draw, **more: Any) -> int:
+    def streamed_accessor(self, dtype: str, shape: tuple[int, ...], draw: DrawValues, **more: Any) -> int:
         """An accessor whose values, of this type and shape, are drawn when they are written."""
         size = int(np.dtype(dtype).itemsize * np.prod(shape))
         view = self.add("bufferViews", {"buffer": 0, "byteOffset": self._length, "byteLength": size})

@@ -82,14 +82,14 @@ class _PlayableGltf:
             (skinned if bends and "skin" in entry else rigid).append(primitive)
         place = self._out.parts["nodes"][node]
         if rigid and skinned:  # what has no joints moves with its node, beside what has
-            below = self._out.add("nodes", self._shown(rigid, entry))
+            below = self._out.add("nodes", self._add_mesh_node(rigid, entry))
             place["children"] = [*place.get("children", []), below]
         elif rigid:
-            place |= self._shown(rigid, entry)
+            place |= self._add_mesh_node(rigid, entry)
         if skinned:
-            place |= self._shown(skinned, entry) | {"skin": self._skin(entry)}
+            place |= self._add_mesh_node(skinned, entry) | {"skin": self._skin(entry)}
 
-    def _shown(self, primitives: list[dict[str, Any]], entry: JsonObject) -> dict[str, Any]:
+    def _add_mesh_node(self, primitives: list[dict[str, Any]], entry: JsonObject) -> dict[str, Any]:
         weights = default_morph_weights(self._document, entry)
         mesh = {"primitives": primitives} | ({"weights": list(weights)} if weights else {})
         return {"mesh": self._out.add("meshes", mesh)}
@@ -174,7 +174,7 @@ class _PlayableGltf:
         def draw() -> Shaped[np.ndarray, "..."]:
             return self._accessors.floats(layout).reshape(shape)
 
-        return self._out.drawn("float32", shape, draw)
+        return self._out.streamed_accessor("float32", shape, draw)
 
 
 def _strongest_influences(influences: SkinWeights) -> tuple[UInt16[np.ndarray, "V 4"], Float[np.ndarray, "V 4"]]:

@@ -38,7 +38,7 @@ def write_vertex_blocks(
 
     The vertices are drawn twice, once for the cube. `progress` hears the stage "figure".
     """
-    centre, half = _cube(animation, mesh, threads, lambda stage, share: progress(stage, share / 2))
+    centre, half = _bounding_cube(animation, mesh, threads, lambda stage, share: progress(stage, share / 2))
     facts = {
         "kind": "vertices",
         "vertices": len(mesh.vertices),
@@ -63,7 +63,7 @@ def write_vertex_blocks(
     yield from write_block_file(facts, arrays, animation.frames, len(mesh.vertices) * 3 * 2, quantized)
 
 
-def _cube(
+def _bounding_cube(
     animation: Animation, mesh: DecimatedMesh, threads: int, progress: Progress
 ) -> tuple[Float32[np.ndarray, "3"], float]:
     """Centre and half the edge of the smallest cube on the axes that holds every frame."""
@@ -81,7 +81,7 @@ def _cube(
     return (low + high) / 2, float((high - low).max() / 2) or 1.0
 
 
-def _drawn(
+def _read_kept_vertices(
     animation: Animation, mesh: DecimatedMesh, block: Block
 ) -> Iterator[tuple[int, Float32[np.ndarray, "n kept 3"]]]:
     """The kept vertices of a block, in pieces small enough for the largest mesh; with the frame each starts at."""
@@ -93,7 +93,9 @@ def _drawn(
 def _extent(
     animation: Animation, mesh: DecimatedMesh, block: Block
 ) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "3"]]:
-    ends = [(piece.min(axis=(0, 1)), piece.max(axis=(0, 1))) for _, piece in _drawn(animation, mesh, block)]
+    ends = [
+        (piece.min(axis=(0, 1)), piece.max(axis=(0, 1))) for _, piece in _read_kept_vertices(animation, mesh, block)
+    ]
     return np.min([low for low, _ in ends], axis=0), np.max([high for _, high in ends], axis=0)
 
 
@@ -102,6 +104,6 @@ def _quantized(
 ) -> Int16[np.ndarray, "block kept 3"]:
     start, stop = block
     out = np.empty((stop - start, len(mesh.vertices), 3), "<i2")
-    for first, piece in _drawn(animation, mesh, block):
+    for first, piece in _read_kept_vertices(animation, mesh, block):
         out[first : first + len(piece)] = np.rint((piece - centre) * scale).clip(-LARGEST, LARGEST)
     return out

@@ -38,7 +38,7 @@ class Problem(BaseModel):
     setting: str | None = Field(None, description="the setting that the keeper of the service may change")
 
 
-def describe(app: FastAPI) -> None:
+def install_description(app: FastAPI) -> None:
     """Have `/openapi.json` answer the whole description."""
 
     def openapi() -> dict[str, Any]:

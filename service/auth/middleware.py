@@ -74,7 +74,7 @@ class AuthenticationMiddleware:
         known = await authenticate(backend, request) if self._keys_needed else Caller(LOCAL_OWNER)
         told = await self._count(backend, request, known)
         if known is None and request.scope["path"] != SESSION:
-            raise _unknown(request)
+            raise _unknown_caller(request)
         if known is not None:
             self._check_reach(known, request.scope["path"])
         if known is not None and known.by_cookie and not reading:
@@ -106,7 +106,7 @@ def _is_page(path: str) -> bool:
     return path in {"/", "/openapi.json"} or path.startswith(("/static/", "/view/"))
 
 
-def _unknown(request: Request) -> Refusal:
+def _unknown_caller(request: Request) -> Refusal:
     if "authorization" in request.headers:
         return UnknownCaller("unknown-key", "This key opens nothing here: it is wrong, or it was revoked.")
     detail = "This service wants a key: send `Authorization: Bearer KEY`. Its keeper makes one: caesura keys add NAME."

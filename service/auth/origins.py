@@ -21,11 +21,11 @@ class OriginPolicy:
     """The names of the service: `localhost`, every address, and those that `public` lists with commas between."""
 
     def __init__(self, public: str) -> None:
-        self._names = {_name(host) for host in public.split(",") if host.strip()} | {"localhost"}
+        self._names = {_host_name(host) for host in public.split(",") if host.strip()} | {"localhost"}
 
     def check_host(self, headers: Headers) -> None:
         """Raises `Refusal` ("foreign-host") where the browser was led here by a name that is not ours."""
-        name = _name(headers.get("host", ""))
+        name = _host_name(headers.get("host", ""))
         if name not in self._names and not _is_address(name):
             detail = f"This service is not called {name!r}. Its keeper can add the name to CAESURA_PUBLIC_HOSTS."
             raise Refusal("foreign-host", detail, setting="CAESURA_PUBLIC_HOSTS")
@@ -37,19 +37,19 @@ class OriginPolicy:
         """
         origin = headers.get("origin")
         if origin is not None:
-            if not self._is_ours(origin, headers.get("host", "")):
-                raise _foreign(f"A page of {origin}")
+            if not self._is_own_name(origin, headers.get("host", "")):
+                raise _foreign_origin(f"A page of {origin}")
             return
         followed = following and headers.get("sec-fetch-mode") == "navigate"
         if headers.get("sec-fetch-site") in {"cross-site", "same-site"} and not followed:
-            raise _foreign("A page of another site")
+            raise _foreign_origin("A page of another site")
 
     def check_named(self, headers: Headers) -> None:
         """Raises `Refusal` ("foreign-origin") where nothing says which page asks: a browser always does."""
         if "origin" not in headers:
-            raise _foreign("A page that does not say its origin")
+            raise _foreign_origin("A page that does not say its origin")
 
-    def _is_ours(self, origin: str, host: str) -> bool:
+    def _is_own_name(self, origin: str, host: str) -> bool:
         try:
             page, here = urlsplit(origin), urlsplit(f"//{host}")
             page_port = page.port or DEFAULT_PORTS.get(page.scheme)
@@ -62,12 +62,12 @@ class OriginPolicy:
         return same or page.hostname in self._names - {"localhost"}
 
 
-def _foreign(page: str) -> Refusal:
+def _foreign_origin(page: str) -> Refusal:
     return Refusal("foreign-origin", f"{page} may not use this service from a browser; only its own page may.")
 
 
 @lru_cache(maxsize=64)
-def _name(host: str) -> str:
+def _host_name(host: str) -> str:
     """A host without its port."""
     try:
         return (urlsplit(f"//{host.strip()}").hostname or "").rstrip(".")

@@ -18,7 +18,7 @@ CONNECT_SECONDS = 5.0
 ANSWER_SECONDS = 60.0
 
 
-class Refused(CaesuraError):
+class ServiceProblem(CaesuraError):
     """The service's own problem, as it said it."""
 
     def __init__(self, problem: Mapping[str, Any]) -> None:
@@ -51,7 +51,7 @@ class Client:
     def segment(
         self, file: IO[bytes], name: str, parameters: Mapping[str, str], progress: Progress = ignore_progress
     ) -> SegmentationDocument:
-        """Upload the file, wait until it is cut, and fetch the result; raises `Refused` or `Unreachable`."""
+        """Upload the file, wait until it is cut, and fetch the result; raises `ServiceProblem` or `Unreachable`."""
         status = self._ask(
             "POST",
             "/v1/segmentations",
@@ -64,7 +64,9 @@ class Client:
             time.sleep(POLL_SECONDS)
             status = self._ask("GET", f"/v1/segmentations/{status['id']}")
         if status["status"] != "done":
-            raise Refused(status["problem"] or {"code": status["status"], "detail": f"It was {status['status']}."})
+            raise ServiceProblem(
+                status["problem"] or {"code": status["status"], "detail": f"It was {status['status']}."}
+            )
         result = self._ask("GET", f"/v1/segmentations/{status['id']}/result", headers={"Accept": "application/json"})
         return SegmentationDocument.model_validate(result)
 
@@ -79,7 +81,7 @@ class Client:
         except ValueError:
             answer = None
         if response.is_error and isinstance(answer, dict) and {"code", "detail"} <= answer.keys():
-            raise Refused(answer)
+            raise ServiceProblem(answer)
         if response.is_error or not isinstance(answer, dict):
             detail = f"{self.url} answered {response.status_code} to {method} {path}: this is no Caesura service."
             raise Unreachable("not-a-service", detail)

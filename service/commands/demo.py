@@ -44,36 +44,38 @@ def demo(context: click.Context, /, once: bool, port: int, url: str | None) -> N
 
 def _segment_samples(url: str) -> float:
     """Upload, wait, compare and print, for each figure; the lowest frame accuracy."""
-    from caesura.samples.figures import FIGURES, figure
+    from caesura.samples.figures import FIGURES, build_figure
     from caesura.service.commands.client import Client
 
     accuracies = []
     with Client(url) as client:
         for name in FIGURES:
-            sample = figure(name)
+            sample = build_figure(name)
             truth = Labelling.of(sample.truth.document())
             motions = len({label for _, _, label in truth.segments})
             with ProgressBar() as progress:
                 glb = io.BytesIO(sample.glb)
                 found = client.segment(glb, f"{name}.glb", {"motions": str(motions)}, progress)
             accuracy = compute_agreement(Labelling.of(found.model_dump()), truth)["frame_accuracy"]
-            click.echo(_comparison(name, found, truth))
+            click.echo(_compare_with_truth(name, found, truth))
             click.echo(f"  frame accuracy {accuracy:.3f}, told that there are {motions} motions")
             click.echo(f"  {url}/view/{found.id}\n")
             accuracies.append(accuracy)
     return min(accuracies)
 
 
-def _comparison(name: str, found: SegmentationDocument, truth: Labelling) -> str:
+def _compare_with_truth(name: str, found: SegmentationDocument, truth: Labelling) -> str:
     """Segments beside the truth, in order."""
     rows = [f"{name} figure, {found.frames} frames at {found.frame_rate:g} a second", ""]
     rows.append(f"  {'truth':<32}found")
     for given, segment in zip_longest(truth.segments, found.segments):
-        rows.append(f"  {_seconds_span(*given) if given else '':<32}{_found(segment) if segment else ''}".rstrip())
+        rows.append(
+            f"  {_seconds_span(*given) if given else '':<32}{_describe_segment(segment) if segment else ''}".rstrip()
+        )
     return "\n".join(rows)
 
 
-def _found(segment: Segment) -> str:
+def _describe_segment(segment: Segment) -> str:
     return _seconds_span(segment.start, segment.end, segment.name)
 
 

@@ -5,7 +5,7 @@ import redis
 from caesura.core.errors import ParameterError
 from caesura.service.api_keys.credentials import KeyRecord
 from caesura.worker.records import redis_keys
-from caesura.worker.records.connection import names
+from caesura.worker.records.connection import decode_names
 
 
 class KeyRing:
@@ -28,7 +28,7 @@ class KeyRing:
 
     def all(self) -> list[KeyRecord]:
         """All keys, oldest first."""
-        digests = names(self._redis.hvals(redis_keys.API_KEYS_KEY))
+        digests = decode_names(self._redis.hvals(redis_keys.API_KEYS_KEY))
         stored = self._redis.mget([redis_keys.api_key_key(digest) for digest in digests]) if digests else []
         known = [record for record in map(KeyRecord.read, stored) if record is not None]
         return sorted(known, key=lambda record: record.created)

@@ -44,7 +44,7 @@ def add(name: str, like: str | None, local: bool, metrics: bool, line: bool) -> 
         key, record = new_key(name, metrics=metrics)
         click.echo(f"{key}\n{key_file.key_file_line(record)}")
         return
-    with _ring() as ring:
+    with _open_key_ring() as ring:
         owner = "" if local else ring.named(like).owner if like else None
         key, record = new_key(name, owner, metrics=metrics)
         ring.add(record)
@@ -54,7 +54,7 @@ def add(name: str, like: str | None, local: bool, metrics: bool, line: bool) -> 
 @keys.command("list", cls=Command)
 def list_() -> None:
     """Names, the day each was made, and which open /metrics alone."""
-    with _ring() as ring:
+    with _open_key_ring() as ring:
         for record in ring.all():
             made = time.strftime("%Y-%m-%d", time.gmtime(record.created))
             click.echo(f"{record.name:<32} {made}{'  metrics' if record.metrics else ''}")
@@ -64,12 +64,12 @@ def list_() -> None:
 @click.argument("name")
 def revoke(name: str) -> None:
     """End the key NAME, and whatever is signed in with it. What was made with it stays, until its time is up."""
-    with _ring() as ring:
+    with _open_key_ring() as ring:
         ring.revoke(name)
 
 
 @contextmanager
-def _ring() -> Iterator["KeyRing"]:
+def _open_key_ring() -> Iterator["KeyRing"]:
     """The keys of the service; raises `Unreachable` where its Redis does not answer."""
     from redis.exceptions import RedisError
 
@@ -82,10 +82,10 @@ def _ring() -> Iterator["KeyRing"]:
         with connect(location) as client:
             yield KeyRing(client)
     except RedisError:
-        detail = f"The service's Redis at {_plain(location)} does not answer. Start the service first."
+        detail = f"The service's Redis at {_without_password(location)} does not answer. Start the service first."
         raise Unreachable("redis-unavailable", detail) from None
 
 
-def _plain(location: str) -> str:
+def _without_password(location: str) -> str:
     """An address without the password in it."""
     return location.rpartition("@")[2] if "@" in location else location

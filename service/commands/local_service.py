@@ -52,12 +52,12 @@ def local_service(port: int) -> Iterator[str]:
                 preexec_fn=parent_watch(signal.SIGTERM),  # noqa: PLW1509  one prctl call between fork and exec
             )
         try:
-            yield _address(log, process)
+            yield _announced_address(log, process)
         finally:
-            _end(process)
+            _end_process(process)
 
 
-def _address(log: Path, process: "subprocess.Popen[bytes]") -> str:
+def _announced_address(log: Path, process: "subprocess.Popen[bytes]") -> str:
     """What it says once it answers."""
     deadline = time.monotonic() + START_SECONDS
     while process.poll() is None and time.monotonic() < deadline:
@@ -69,7 +69,7 @@ def _address(log: Path, process: "subprocess.Popen[bytes]") -> str:
     raise Unreachable("not-started", "The service did not start; what it said is above.")
 
 
-def _end(process: "subprocess.Popen[bytes]") -> None:
+def _end_process(process: "subprocess.Popen[bytes]") -> None:
     process.terminate()
     try:
         process.wait(STOP_SECONDS)

@@ -108,7 +108,7 @@ class Outputs:
                 raise click.UsageError(
                     f"With --out, {flag} takes no name. Put it after the files, or before an option."
                 )
-            forms[form] = None if given == UNNAMED else _place(flag, Path(given), sources, forms.values())
+            forms[form] = None if given == UNNAMED else _check_output_path(flag, Path(given), sources, forms.values())
         if options.model_fields_set and "clips" not in forms:
             flag = f"--{min(options.model_fields_set).replace('_', '-')}"
             raise click.UsageError(f"{flag} says how clips are made: it needs --clips beside it.")
@@ -138,7 +138,7 @@ class Outputs:
         _save(path or (target or Path()).with_name(f"{(target or Path()).name}{suffix}"), pieces)
 
 
-def _place(flag: str, path: Path, sources: Sequence[Path], taken: Iterable[Path | None]) -> Path:
+def _check_output_path(flag: str, path: Path, sources: Sequence[Path], taken: Iterable[Path | None]) -> Path:
     """The path, where it can be written and no other form goes there; else `UsageError`, before the long work."""
     if not path.parent.is_dir():
         raise click.UsageError(f"There is no folder '{path.parent}' for {flag}: make it first.")

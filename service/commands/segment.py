@@ -56,7 +56,7 @@ def segment(
     for path, target in zip(animations, _targets(animations, out), strict=True):
         with batch.file(path) as outcome:
             parts = {p.name: map_file(p) for p in [path, *(c for c in companions if c != path)]}
-            found = _found(parts, parameters, threads)
+            found = _segment_file(parts, parameters, threads)
             written.write(parts, found, target)
             outcome.found = found
             if as_json or out is None:
@@ -74,7 +74,7 @@ def _targets(animations: list[Path], out: Path | None) -> list[Path] | list[None
     return [None] * len(animations) if out is None else output_paths(animations, out)
 
 
-def _found(parts: Mapping[str, memoryview], parameters: Parameters, threads: int | None) -> SegmentationDocument:
+def _segment_file(parts: Mapping[str, memoryview], parameters: Parameters, threads: int | None) -> SegmentationDocument:
     """Read, analyse and cut one animation. What is heavy is imported here, and what computes only for a good file."""
     from caesura.formats.read import read_animation
 

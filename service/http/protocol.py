@@ -38,7 +38,7 @@ class Protocol(HttpToolsProtocol):
     """Before a client that takes nothing of its answer is dropped. Linux keeps this time; elsewhere nobody does."""
     look_seconds = 5.0
 
-    _looking: asyncio.TimerHandle | None = None
+    _deadline_timer: asyncio.TimerHandle | None = None
     _reading = "head"  # and "body", and "nothing": between two requests uvicorn keeps the time
     _unread = 0
     _began = _heard = 0.0
@@ -50,12 +50,12 @@ class Protocol(HttpToolsProtocol):
             milliseconds = int(self.write_seconds * 1000)
             transport.get_extra_info("socket").setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, milliseconds)
         self._began = self._heard = self.loop.time()
-        self._looking = self.loop.call_later(self.look_seconds, self._look)
+        self._deadline_timer = self.loop.call_later(self.look_seconds, self._look)
 
     def connection_lost(self, exc: Exception | None) -> None:
         """And has left."""
-        if self._looking is not None:
-            self._looking.cancel()
+        if self._deadline_timer is not None:
+            self._deadline_timer.cancel()
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
@@ -65,8 +65,8 @@ class Protocol(HttpToolsProtocol):
         super().data_received(data)
         if self._unread > MOST_HEAD_BYTES and not self.transport.is_closing():
             self._refuse()
-        elif self._looking is None and self._reading != "nothing":
-            self._looking = self.loop.call_later(self.look_seconds, self._look)
+        elif self._deadline_timer is None and self._reading != "nothing":
+            self._deadline_timer = self.loop.call_later(self.look_seconds, self._look)
 
     def on_message_begin(self) -> None:
         """The first byte of a request."""
@@ -90,7 +90,7 @@ class Protocol(HttpToolsProtocol):
 
     def _look(self) -> None:
         """Every few seconds while a request is not whole."""
-        self._looking = None
+        self._deadline_timer = None
         if self._reading == "nothing" or self.transport.is_closing():
             return
         now = self.loop.time()
@@ -100,7 +100,7 @@ class Protocol(HttpToolsProtocol):
         if late:
             self.transport.close()
         else:
-            self._looking = self.loop.call_later(self.look_seconds, self._look)
+            self._deadline_timer = self.loop.call_later(self.look_seconds, self._look)
 
     def _refuse(self) -> None:
         """Say so, where no answer is on its way, and hang up."""

@@ -33,7 +33,7 @@ class StreamLimit:
             raise TooManyStreams("too-many-streams", detail, limit=MOST_STREAMS)
 
     @contextmanager
-    def taken(self, who: StreamClient) -> Iterator[None]:
+    def open_stream(self, who: StreamClient) -> Iterator[None]:
         """While a stream is open."""
         self._taken[who] += 1
         try:

@@ -43,14 +43,14 @@ def run_supervisor(settings: ServiceSettings, on_ready: OnReady | None = None) -
                 server.start()
                 settings = settings.model_copy(update={"redis_url": server.url})
                 with tolerate_full_disk():  # the workers find what is lost once it has room
-                    _recover(settings)
-            _watch(settings, listening, server, on_ready or _announce, stopping)
+                    _resume_jobs(settings)
+            _watch_children(settings, listening, server, on_ready or _print_address, stopping)
         finally:
             if server is not None:
                 server.stop()
 
 
-def _watch(
+def _watch_children(
     settings: ServiceSettings,
     listening: socket.socket,
     server: EmbeddedRedis | None,
@@ -84,7 +84,7 @@ def _watch(
         workers.wait(settings.stop_seconds + WORKER_GRACE_SECONDS)
 
 
-def _recover(settings: ServiceSettings) -> None:
+def _resume_jobs(settings: ServiceSettings) -> None:
     """Our own server holds what was left at the last end, and nobody can be working on it now."""
     client = connect(settings.redis_location)
     check_layout(client)
@@ -102,6 +102,6 @@ def _stop_signals() -> list[int]:
     return received
 
 
-def _announce(address: str) -> None:
+def _print_address(address: str) -> None:
     sys.stdout.write(f"Caesura is at {address}\n")
     sys.stdout.flush()

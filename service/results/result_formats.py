@@ -55,28 +55,28 @@ EXPORTS = (
 
 def format_by_suffix(suffix: str) -> ResultFormat:
     """The form of an address that ends in `result.suffix`."""
-    return _called(suffix, RESULT_FORMATS, "result")
+    return _find_format(suffix, RESULT_FORMATS, "result")
 
 
 def plot_format_by_suffix(suffix: str) -> ResultFormat:
     """The form of an address that ends in `plot.suffix`."""
-    return _called(suffix, PLOT_FORMATS, "plot")
+    return _find_format(suffix, PLOT_FORMATS, "plot")
 
 
-def _called(suffix: str, forms: tuple[ResultFormat, ...], what: str) -> ResultFormat:
+def _find_format(suffix: str, forms: tuple[ResultFormat, ...], what: str) -> ResultFormat:
     for form in forms:
         if form.suffix == suffix:
             return form
-    raise Refusal("not-found", f"There is no {what}.{suffix[:20]}. There are: {_listed(forms)}.")
+    raise Refusal("not-found", f"There is no {what}.{suffix[:20]}. There are: {_list_formats(forms)}.")
 
 
 def format_by_accept(header: str) -> ResultFormat:
     """The form that an Accept header likes best (RFC 9110, section 12.5.1); JSON where anything will do."""
     wanted = [_quality(item) for item in header.split(",") if item.strip()] or [("*/*", 1.0)]
-    best = max(RESULT_FORMATS, key=lambda form: _liking(form, wanted))
-    if _liking(best, wanted) <= 0:
+    best = max(RESULT_FORMATS, key=lambda form: _match_quality(form, wanted))
+    if _match_quality(best, wanted) <= 0:
         raise Refusal(
-            "not-acceptable", f"The result does not come as {header}. It comes as: {_listed(RESULT_FORMATS)}."
+            "not-acceptable", f"The result does not come as {header}. It comes as: {_list_formats(RESULT_FORMATS)}."
         )
     return best
 
@@ -90,7 +90,7 @@ def _quality(item: str) -> tuple[str, float]:
         return media_type, 0.0
 
 
-def _liking(form: ResultFormat, wanted: list[tuple[str, float]]) -> float:
+def _match_quality(form: ResultFormat, wanted: list[tuple[str, float]]) -> float:
     """The quality of the most specific item that matches."""
     for pattern in (form.media_type, form.media_type.split("/")[0] + "/*", "*/*"):
         for media_type, quality in wanted:
@@ -99,5 +99,5 @@ def _liking(form: ResultFormat, wanted: list[tuple[str, float]]) -> float:
     return 0.0
 
 
-def _listed(forms: tuple[ResultFormat, ...]) -> str:
+def _list_formats(forms: tuple[ResultFormat, ...]) -> str:
     return ", ".join(f".{form.suffix} ({form.media_type})" for form in forms)

@@ -58,7 +58,7 @@ async def result_response(
         return refused
     number = revision_number(record, wanted.revision)
     if wanted.form.suffix in WORKER_MADE_FORMATS:
-        return await _made(backend, request, record, wanted.form, number)
+        return await _job_made_response(backend, request, record, wanted.form, number)
     return await _text(backend, request, record, wanted, number)
 
 
@@ -100,7 +100,7 @@ async def _content(backend: Backend, record: SegmentationRecord, write: Writer |
     return await to_thread.run_sync(write or SegmentationDocument.model_dump_json, document)
 
 
-async def _made(
+async def _job_made_response(
     backend: Backend, request: Request, record: SegmentationRecord, form: ResultFormat, number: int
 ) -> Response:
     """Made of arrays by a job at the first request, then served as stored."""
@@ -141,7 +141,7 @@ async def _export(backend: Backend, identifier: str, form: str, seconds: float) 
     if made is None or made.pending or (made.problem or {}).get("kind") == "worker":
         made = await to_thread.run_sync(submit_export, backend.jobs, identifier, form)
     with backend.limited_wait(seconds):
-        async with aclosing(backend.records.changes(identifier)) as changes:
+        async with aclosing(backend.records.follow_changes(identifier)) as changes:
             async for _ in changes:
                 made = await backend.records.export(identifier, form) or made
                 if not made.pending:

@@ -20,7 +20,7 @@ def segments_csv(document: SegmentationDocument) -> str:
     return _csv(
         SEGMENT_COLUMNS,
         (
-            (s.name, s.motion, s.start, s.end, f"{s.start_seconds:.6f}", f"{s.end_seconds:.6f}", *_said(s))
+            (s.name, s.motion, s.start, s.end, f"{s.start_seconds:.6f}", f"{s.end_seconds:.6f}", *_segment_row(s))
             for s in document.segments
         ),
     )
@@ -57,7 +57,7 @@ def plot_svg(document: SegmentationDocument) -> str:
     return render_svg(lay_out_picture(document))
 
 
-def _said(segment: Segment) -> tuple[object, ...]:
+def _segment_row(segment: Segment) -> tuple[object, ...]:
     return "" if segment.confidence is None else segment.confidence, int(segment.loop), int(segment.discard)
 
 
@@ -72,10 +72,10 @@ def _csv(columns: Iterable[str], rows: Iterator[tuple[object, ...]]) -> str:
 def _cue(segment: Segment) -> str:
     """A cue must last, so a segment of the last frame alone gets a millisecond."""
     start, end = (round(max(seconds, 0.0) * 1000) for seconds in (segment.start_seconds, segment.end_seconds))
-    return f"{_clock(start)} --> {_clock(max(end, start + 1))}\n{_plain(segment)}\n"
+    return f"{_clock(start)} --> {_clock(max(end, start + 1))}\n{_escape_name(segment)}\n"
 
 
-def _plain(segment: Segment) -> str:
+def _escape_name(segment: Segment) -> str:
     """A name that cannot be taken for markup or for the next cue."""
     return " ".join(segment.name.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").split())
 

@@ -28,7 +28,9 @@ class ClipQuery(ClipOptions):
 
 
 @dataclass(frozen=True)
-class _Made:
+class ResultFileRequest:
+    """Which file of a result is asked for: its kind, the revision and the choices of clips."""
+
     what: str
     revision: str
     choices: str = ""
@@ -45,7 +47,9 @@ async def clips(
 
     A zip where `files=separate`, and of a vertex sequence.
     """
-    return await _made(identifier, request, backend, owner, _Made("clips", options.revision, options.choices()))
+    return await _respond_with_file(
+        identifier, request, backend, owner, ResultFileRequest("clips", options.revision, options.choices())
+    )
 
 
 @router.get("/keyframes", responses=KEY_POSES)
@@ -53,10 +57,12 @@ async def keyframes(
     identifier: str, request: Request, backend: BackendDependency, owner: Owner, revision: Revision = "0"
 ) -> Response:
     """The uploaded glTF with one animation that steps from key pose to key pose."""
-    return await _made(identifier, request, backend, owner, _Made("keyframes", revision))
+    return await _respond_with_file(identifier, request, backend, owner, ResultFileRequest("keyframes", revision))
 
 
-async def _made(identifier: str, request: Request, backend: Backend, owner: str, made: _Made) -> Response:
+async def _respond_with_file(
+    identifier: str, request: Request, backend: Backend, owner: str, made: ResultFileRequest
+) -> Response:
     record = await backend.wait_until_settled(
         await backend.segmentation(identifier, owner), preferred_wait_seconds(request)
     )

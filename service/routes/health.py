@@ -8,7 +8,7 @@ from prometheus_client import CONTENT_TYPE_LATEST
 from caesura.service.backend import BackendDependency
 from caesura.service.metrics import Metrics
 from caesura.service.problems.status_table import Refusal
-from caesura.service.uploads.capacity import idle, look_for_capacity
+from caesura.service.uploads.capacity import describe_unserved_queues, measure_capacity
 
 router = APIRouter(tags=["health"])
 
@@ -25,7 +25,7 @@ async def ready(backend: BackendDependency) -> Response:
 
     from both queues; 503 says what is missing.
     """
-    wrong = await look_for_capacity(backend) or await idle(backend)
+    wrong = await measure_capacity(backend) or await describe_unserved_queues(backend)
     if wrong:
         raise Refusal("not-ready", wrong)
     return JSONResponse({"status": "ready"})

@@ -51,15 +51,15 @@ class PageFiles(StaticFiles):
 
 def _compressed(path: str, changed: int) -> bytes:
     """A file of the page as gzip, made once for as long as it stays as it is: making takes ten times the sending."""
-    known = _made.get(path)
+    known = _compressed_files.get(path)
     if known is None or known[0] != changed:
-        known = _made[path] = (changed, gzip.compress(Path(path).read_bytes(), 6, mtime=0))
+        known = _compressed_files[path] = (changed, gzip.compress(Path(path).read_bytes(), 6, mtime=0))
     return known[1]
 
 
-_made: dict[str, tuple[int, bytes]] = {}
+_compressed_files: dict[str, tuple[int, bytes]] = {}
 
 
-def mount(app: FastAPI) -> None:
+def mount_page_files(app: FastAPI) -> None:
     """Serve the page's own files, with ETag and Last-Modified."""
     app.mount("/static", PageFiles(directory=STATIC, check_dir=False), name="static")

@@ -63,7 +63,7 @@ async def plot(
 @router.get("/viewer", response_model=ViewerDocument)
 async def viewer(identifier: str, backend: BackendDependency, owner: Owner) -> Response:
     """What the page plays, and where it is."""
-    shown = await _shown(backend, identifier, owner)
+    shown = await _viewer_record(backend, identifier, owner)
     here = f"/v1/segmentations/{identifier}/viewer"
     addresses = {"model": f"{here}/model", "strain": f"{here}/strain" if shown.strain else None}
     return status_response(ViewerDocument.model_validate({**shown.document, **addresses}))
@@ -72,28 +72,28 @@ async def viewer(identifier: str, backend: BackendDependency, owner: Owner) -> R
 @router.get("/viewer/model", responses=FILE)
 async def model(identifier: str, request: Request, backend: BackendDependency, owner: Owner) -> Response:
     """The figure: a plain GLB, or blocks of vertices."""
-    shown = await _shown(backend, identifier, owner)
+    shown = await _viewer_record(backend, identifier, owner)
     media_type = "model/gltf-binary" if shown.document.get("kind") == "gltf" else "application/octet-stream"
-    return await _blob(request, backend, shown.model, media_type)
+    return await _blob_response(request, backend, shown.model, media_type)
 
 
 @router.get("/viewer/strain", responses=FILE)
 async def strain(identifier: str, request: Request, backend: BackendDependency, owner: Owner) -> Response:
     """How strained each patch is at each frame, in blocks."""
-    shown = await _shown(backend, identifier, owner)
+    shown = await _viewer_record(backend, identifier, owner)
     if shown.strain is None:
         raise Refusal("not-found", "There is no strain: the animation has no triangles.")
-    return await _blob(request, backend, shown.strain, "application/octet-stream")
+    return await _blob_response(request, backend, shown.strain, "application/octet-stream")
 
 
-async def _shown(backend: Backend, identifier: str, owner: str) -> ViewerRecord:
+async def _viewer_record(backend: Backend, identifier: str, owner: str) -> ViewerRecord:
     record = await backend.segmentation(identifier, owner)
     if record.analysis is None or record.analysis.viewer is None:
         raise Refusal("not-finished", f"It is {record.status}: there is nothing to play yet.")
     return record.analysis.viewer
 
 
-async def _blob(request: Request, backend: Backend, key: str, media_type: str) -> Response:
+async def _blob_response(request: Request, backend: Backend, key: str, media_type: str) -> Response:
     """Blob keys are random and never written twice, so the key's own end is the tag."""
     name = key.rpartition("/")[2]
     size = await to_thread.run_sync(backend.blobs.size, key)

@@ -51,7 +51,7 @@ async def revisions(identifier: str, request: Request, backend: BackendDependenc
     refused = unfinished_response(request, record)
     if refused is not None:
         return refused
-    kept = [_computed(record), *await Revisions(backend.records).all(identifier)]
+    kept = [_computed_revision(record), *await Revisions(backend.records).all(identifier)]
     entries = tuple(RevisionEntry.of(identifier, one) for one in kept)
     return status_response(RevisionList(revisions=entries), 200, cache_headers(f'"{kept[-1].number}"'))
 
@@ -70,7 +70,9 @@ async def revision(
     if is_not_modified(request, headers["ETag"]):
         return Response(status_code=304, headers=headers)
     kept = await Revisions(backend.records).one(identifier, number) if number else None
-    return status_response(await _document(backend, record, kept[0] if kept else _computed(record)), 200, headers)
+    return status_response(
+        await _document(backend, record, kept[0] if kept else _computed_revision(record)), 200, headers
+    )
 
 
 async def _document(backend: Backend, record: SegmentationRecord, kept: RevisionRecord) -> RevisionDocument:
@@ -78,5 +80,5 @@ async def _document(backend: Backend, record: SegmentationRecord, kept: Revision
     return RevisionDocument.of(record.id, kept, segments=segments)
 
 
-def _computed(record: SegmentationRecord) -> RevisionRecord:
+def _computed_revision(record: SegmentationRecord) -> RevisionRecord:
     return RevisionRecord(number=0, created=record.created)

@@ -64,7 +64,7 @@ async def of_animation(
     """The segmentations of one animation, newest first, without their segments."""
     await backend.animation(animation, owner)
     known = backend.records.segmentations(animation, limit, decode_cursor(cursor))
-    page = [record.with_(segments=()) async for record in known]
+    page = [record.with_changes(segments=()) async for record in known]
     entries = tuple(StatusDocument.of(record).model_copy(update={"segments": None}) for record in page)
     address = f"/v1/segmentations?animation={animation}&limit={limit}&cursor="
     more = address + encode_cursor(page[-1].created) if len(page) == limit else None
@@ -93,9 +93,9 @@ async def events(
     if not record.live and event_id(record) == last_event_id:
         return Response(status_code=204)  # tells an EventSource not to come back
     who = stream_client(request)
-    backend.seats.check(who)
+    backend.stream_limit.check(who)
     stream = status_events(backend, identifier, last_event_id, partial(is_still_admitted, backend, request))
-    seat = backend.seats.taken(who)
+    seat = backend.stream_limit.open_stream(who)
     return StreamingResponse(
         counted_stream(seat, stream), headers={"Cache-Control": "no-store"}, media_type="text/event-stream"
     )

@@ -36,7 +36,7 @@ async def status_events(backend: Backend, identifier: str, last_seen: str, admit
     """
     yield ": caesura\n\n"
     spoke = current_time()
-    async with aclosing(backend.records.changes(identifier)) as changes:
+    async with aclosing(backend.records.follow_changes(identifier)) as changes:
         while True:
             with backend.limited_wait() as patience:
                 record = await anext(changes)

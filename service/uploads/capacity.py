@@ -16,7 +16,7 @@ from redis.exceptions import RedisError
 
 from caesura.service.backend import Backend, BackendDependency
 from caesura.service.problems.status_table import Refusal
-from caesura.worker.process.worker_registry import unserved
+from caesura.worker.process.worker_registry import unserved_queues
 from caesura.worker.records.connection import refuses_writes
 
 FULL_SHARE = 0.8
@@ -37,12 +37,12 @@ class Capacity:
         """What there is no room in, or what does not answer, as a sentence; empty where all is well."""
         now = time.monotonic()
         if now - self._seen >= BELIEVED_SECONDS:
-            self._wrong = await look_for_capacity(backend)
+            self._wrong = await measure_capacity(backend)
             self._seen = now
         return self._wrong
 
 
-async def look_for_capacity(backend: Backend) -> str:
+async def measure_capacity(backend: Backend) -> str:
     """The same, looked at now; what takes too long to answer does not answer."""
     with move_on_after(PATIENCE_SECONDS):
         return await to_thread.run_sync(_find_shortage, backend, abandon_on_cancel=True)
@@ -75,9 +75,9 @@ def _redis_share(client: Redis) -> float:
     return float(memory["used_memory"]) / float(most)
 
 
-async def idle(backend: Backend) -> str:
+async def describe_unserved_queues(backend: Backend) -> str:
     """Which queues no worker takes from, as a sentence; what is posted meanwhile waits there. Empty where all do."""
-    queues = await to_thread.run_sync(unserved, backend.jobs.redis)
+    queues = await to_thread.run_sync(unserved_queues, backend.jobs.redis)
     return f"No worker is ready to take jobs from {' and '.join(queues)}." if queues else ""
 
 

@@ -23,12 +23,12 @@ def register_upload(backend: Backend, owner: str, parts: tuple[Part, ...], name:
     stored again. Raises what the header's reader
     raises; nothing is kept then.
     """
-    main = _main(backend, parts)
+    main = _find_main_part(backend, parts)
     header = _header(backend, main)
     described = [(part.name, part.bytes, part.sha256) for part in parts]
     identifier = content_ids.animation_id(backend.secret, owner, described)
     kept = backend.jobs.records.animations.one(identifier)
-    if kept is not None and not all(backend.blobs.has(part.key) for part in kept.parts):  # lost by the store
+    if kept is not None and not all(backend.blobs.exists(part.key) for part in kept.parts):  # lost by the store
         _discard(backend, kept)
         backend.jobs.records.animations.strip(kept)
     elif kept is not None and kept.parts:
@@ -66,7 +66,7 @@ def _discard(backend: Backend, record: AnimationRecord) -> None:
         backend.blobs.delete(part.key)
 
 
-def _main(backend: Backend, parts: tuple[Part, ...]) -> Part:
+def _find_main_part(backend: Backend, parts: tuple[Part, ...]) -> Part:
     """The file that holds the animation; the others are what it refers to, by name."""
     if not parts:
         raise Refusal("no-file", "The form holds no file. Send one with a filename, as curl -F file=@FILE does.")
@@ -76,7 +76,7 @@ def _main(backend: Backend, parts: tuple[Part, ...]) -> Part:
     if twice is not None:
         raise Refusal("duplicate-part", f"Two files of the form are called {twice!r}. Send each once.")
     readable = [part for part in parts if _is_readable(part)]
-    if len(readable) == 2 and (motion := _motion(backend, readable)):
+    if len(readable) == 2 and (motion := _find_motion_part(backend, readable)):
         return motion
     if len(readable) != 1:
         names = ", ".join(part.name for part in readable) or "none"
@@ -86,7 +86,7 @@ def _main(backend: Backend, parts: tuple[Part, ...]) -> Part:
     return readable[0]
 
 
-def _motion(backend: Backend, pair: list[Part]) -> Part | None:
+def _find_motion_part(backend: Backend, pair: list[Part]) -> Part | None:
     """Of a mesh and the motion for it in a file of its own, the latter."""
     headers = [(part, _header(backend, part)) for part in pair]
     animated = [(part, header) for part, header in headers if header.takes]

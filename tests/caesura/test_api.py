@@ -11,7 +11,7 @@ from caesura import Animation, Segmentation, open_animation, segment
 from caesura.core import errors
 from caesura.core.errors import InvalidModel, ParameterError
 from caesura.core.parameters import Parameters
-from caesura.samples.figures import figure
+from caesura.samples.figures import build_figure
 from tests.animations import performing_bar
 from tests.installation import take_npz
 
@@ -71,7 +71,7 @@ def test_a_file_is_its_bytes(of):
 
 def test_a_figure_is_cut_from_its_file():
     """The sample robot, as a GLB, told nothing."""
-    robot = figure("rigid")
+    robot = build_figure("rigid")
     found = segment(robot.glb, threads=2)
     assert found.motions == len({label for label, _, _ in robot.truth.segments})
 

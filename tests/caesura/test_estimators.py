@@ -12,7 +12,7 @@ from sklearn.preprocessing import StandardScaler
 from sklearn.utils.estimator_checks import parametrize_with_checks
 
 from caesura import MotionFeatures, MotionSegmenter, segment
-from caesura.api import READING
+from caesura.api import READING_PARAMETERS
 from caesura.core.parameters import Parameters
 from tests.animations import performing_bar
 
@@ -42,7 +42,7 @@ def test_its_parameters_are_those_of_the_method():
     """Each has the name and the default of `core.Parameters`; those that read a file are left out."""
     signature = inspect.signature(MotionSegmenter).parameters
     ours = {name: parameter.default for name, parameter in signature.items() if name not in ("frame_rate", "threads")}
-    theirs = {name: field.default for name, field in Parameters.model_fields.items() if name not in READING}
+    theirs = {name: field.default for name, field in Parameters.model_fields.items() if name not in READING_PARAMETERS}
     assert ours == theirs
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import segment
-from caesura.samples.figures import FIGURES, figure
+from caesura.samples.figures import FIGURES, build_figure
 from tests.formats.opening import opened
 from tests.glb import chunks
 
@@ -45,7 +45,7 @@ def assert_alike(glb):
 @pytest.mark.parametrize("name", FIGURES)
 def test_a_sample_without_its_mesh_is_cut_alike(name):
     """As many motions, found and not told; each cut within 0.2 s."""
-    assert_alike(figure(name).glb)
+    assert_alike(build_figure(name).glb)
 
 
 @pytest.mark.parametrize("name", SHARED)

@@ -8,8 +8,8 @@ import pytest
 from caesura.core.agreement import frame_accuracy
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import segment
-from caesura.samples.figures import FIGURES, figure
-from caesura.samples.session import PLAYED, long_session, schedule
+from caesura.samples.figures import FIGURES, build_figure
+from caesura.samples.session import PLAYED, long_session, plan_session
 from caesura.samples.take import RATE
 from tests.formats.opening import opened
 
@@ -34,7 +34,7 @@ def check_truth(truth, frames):
 @pytest.mark.parametrize("name", FIGURES)
 def test_a_figure_reads_back_finite_and_as_long_as_its_truth(name):
     """A body of human height, 30 frames a second, and a truth that tiles the take."""
-    sample = figure(name)
+    sample = build_figure(name)
     take = opened(sample.glb)
     vertices = take.vertices(0, take.frames)
     assert np.isfinite(vertices).all()
@@ -46,7 +46,7 @@ def test_a_figure_reads_back_finite_and_as_long_as_its_truth(name):
 @pytest.mark.parametrize("name", FIGURES)
 def test_a_figure_performs_five_motions_and_comes_back_to_some(name):
     """Half a minute to a minute, at least five motions, at least two of them more than once."""
-    truth = figure(name).truth
+    truth = build_figure(name).truth
     labels = [label for label, _, _ in truth.segments]
     assert 30 <= truth.frames / RATE <= 65
     assert len(set(labels)) >= 5
@@ -56,12 +56,12 @@ def test_a_figure_performs_five_motions_and_comes_back_to_some(name):
 @pytest.mark.parametrize("name", FIGURES)
 def test_a_figure_is_the_same_bytes_each_time(name):
     """Made anew, it is the same file."""
-    assert figure.__wrapped__(name) == figure(name)
+    assert build_figure.__wrapped__(name) == build_figure(name)
 
 
 def test_the_smooth_figure_is_one_welded_surface():
     """Every edge of its mesh has two triangles, and there is a single piece."""
-    triangles = opened(figure("smooth").glb).triangles
+    triangles = opened(build_figure("smooth").glb).triangles
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     pairs, shared = np.unique(np.sort(edges, axis=1), axis=0, return_counts=True)
     assert (shared == 2).all()
@@ -70,7 +70,7 @@ def test_the_smooth_figure_is_one_welded_surface():
 
 def test_the_rigid_figures_parts_do_not_strain():
     """The sides of every triangle keep their lengths through the take."""
-    take = opened(figure("rigid").glb)
+    take = opened(build_figure("rigid").glb)
     vertices = take.vertices(0, take.frames)[::20].astype(np.float64)
     for a, b in ((0, 1), (1, 2), (2, 0)):
         sides = np.linalg.norm(vertices[:, take.triangles[:, a]] - vertices[:, take.triangles[:, b]], axis=2)
@@ -98,7 +98,7 @@ def test_a_session_is_the_same_bytes_each_time(session):
 
 def test_the_long_session_is_long():
     """72,000 frames: at least 100 segments of 15 motions, each motion more than once, dead time and retakes."""
-    parts = schedule(72_000, np.random.default_rng(1))
+    parts = plan_session(72_000, np.random.default_rng(1))
     labels = [part.motion.name for part in parts]
     assert sum(part.frames for part in parts) == 72_000
     assert len(labels) >= 100
@@ -111,8 +111,8 @@ def test_the_long_session_is_long():
 @pytest.mark.parametrize("name", FIGURES)
 def test_the_default_method_finds_what_a_figure_performs(name):
     """Told the number of motions, it labels at least 95 % of the frames as the truth does."""
-    truth = figure(name).truth
+    truth = build_figure(name).truth
     numbers = {label: number for number, (label, _, _) in enumerate(truth.segments)}
     true = np.concatenate([np.full(end - start, numbers[label]) for label, start, end in truth.segments])
-    found = segment(opened(figure(name).glb), Parameters(motions=len(numbers)), threads=2)
+    found = segment(opened(build_figure(name).glb), Parameters(motions=len(numbers)), threads=2)
     assert frame_accuracy(found.labels, true) >= 0.95

@@ -3,19 +3,19 @@
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from caesura.samples.skeleton import AXES, HUMAN, arms_out, quaternions, straight
+from caesura.samples.skeleton import AXES, HUMAN, quaternions, spread_arms, straight_stance
 
 
 def bent(joint, axis, degrees):
     """Standing straight but for one angle."""
-    angles = straight()
+    angles = straight_stance()
     angles[HUMAN.index(joint), AXES.index(axis)] = degrees
     return HUMAN.pose(angles)[1]
 
 
 def test_standing_straight_every_joint_is_at_its_own_place():
     """No angle, no movement."""
-    _, places = HUMAN.pose(straight())
+    _, places = HUMAN.pose(straight_stance())
     assert np.allclose(places, HUMAN.places)
 
 
@@ -38,7 +38,7 @@ def test_left_and_right_mirror_each_other():
 
 def test_arms_out_at_ninety_degrees_are_level():
     """That is the T-pose."""
-    _, places = HUMAN.pose(arms_out(90.0))
+    _, places = HUMAN.pose(spread_arms(90.0))
     shoulder, hand = places[HUMAN.index("upper_arm.L")], places[HUMAN.index("hand.L")]
     assert abs(shoulder[1] - hand[1]) < 0.02
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from caesura.samples.surface import Limb, skin
+from caesura.samples.surface import Limb, polygonise_limbs
 
 BALL = Limb(0, np.zeros(3), np.zeros(3), 0.5, 0.5)
 CONE = Limb(0, np.zeros(3), np.array([1.0, 0.0, 0.0]), 0.2, 0.1)
@@ -22,7 +22,7 @@ def volume(vertices, triangles):
 
 def test_a_ball_becomes_a_sphere():
     """Every vertex of a ball's surface lies on it, with its normal along the radius, and the volume is the ball's."""
-    surface = skin([BALL], 0.06)
+    surface = polygonise_limbs([BALL], 0.06)
     radius = np.linalg.norm(surface.vertices, axis=1)
     assert np.allclose(radius, 0.5, atol=1e-6)
     assert np.allclose(surface.normals, surface.vertices / radius[:, None], atol=1e-4)
@@ -32,7 +32,7 @@ def test_a_ball_becomes_a_sphere():
 def test_the_surface_is_one_closed_piece():
     """Two triangles meet at every edge, and V - E + F = 2: one welded surface without holes or handles."""
     arm = Limb(1, np.array([1.0, 0.0, 0.0]), np.array([1.0, 0.8, 0.0]), 0.12, 0.08)
-    surface = skin([CONE, arm], 0.04)
+    surface = polygonise_limbs([CONE, arm], 0.04)
     pairs, shared = edges(surface.triangles)
     assert (shared == 2).all()
     assert len(surface.vertices) - len(pairs) + len(surface.triangles) == 2
@@ -46,7 +46,7 @@ def test_a_round_cone_is_as_thick_as_its_ends():
 
 def test_triangles_are_of_one_size():
     """Edges keep to about the length asked for, so that no region counts for much more than another."""
-    surface = skin([CONE], 0.03)
+    surface = polygonise_limbs([CONE], 0.03)
     pairs, _ = edges(surface.triangles)
     length = np.linalg.norm(surface.vertices[pairs[:, 0]] - surface.vertices[pairs[:, 1]], axis=1)
     assert 0.02 < np.median(length) < 0.04

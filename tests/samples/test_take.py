@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
-from caesura.samples.ground import SOLE, feet_to_ground
+from caesura.samples.ground import SOLE, set_feet_on_ground
 from caesura.samples.repertoire import MOTIONS
 from caesura.samples.skeleton import HUMAN
-from caesura.samples.take import FADE, RATE, Part, perform
+from caesura.samples.take import FADE, RATE, Part, perform_take
 
 
 def take(*motions, seed=3):
     """A take of these motions, each so often."""
     random = np.random.default_rng(seed)
-    return perform([Part(MOTIONS[m], MOTIONS[m].ends(times, RATE, random)) for m, times in motions], random)
+    return perform_take([Part(MOTIONS[m], MOTIONS[m].ends(times, RATE, random)) for m, times in motions], random)
 
 
 def soles(performed):
@@ -90,7 +90,7 @@ def test_ankles_level_the_soles():
     """With a raised thigh and a bent knee, a sole told to be level is level."""
     angles = np.zeros((1, len(HUMAN.names), 3))
     angles[0, HUMAN.index("thigh.L"), 0], angles[0, HUMAN.index("shin.L"), 0] = 50.0, 70.0
-    world, _ = HUMAN.pose(feet_to_ground(angles))
+    world, _ = HUMAN.pose(set_feet_on_ground(angles))
     assert np.allclose(world[0, HUMAN.index("foot.L")] @ [0, 0, 1], [0, 0, 1], atol=1e-9)
 
 

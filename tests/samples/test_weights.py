@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from caesura.samples.surface import Limb, skin
-from caesura.samples.weights import heat_weights, strongest
+from caesura.samples.surface import Limb, polygonise_limbs
+from caesura.samples.weights import heat_weights, strongest_weights
 
 
 @pytest.fixture(scope="module")
@@ -12,7 +12,7 @@ def arm():
     """A straight arm of two bones that meet at x = 0.5."""
     places = [np.array([x, 0.0, 0.0]) for x in (0.0, 0.5, 1.0)]
     limbs = [Limb(0, places[0], places[1], 0.1, 0.1), Limb(1, places[1], places[2], 0.1, 0.1)]
-    return skin(limbs, 0.03), limbs
+    return polygonise_limbs(limbs, 0.03), limbs
 
 
 def test_weights_are_shares(arm):
@@ -42,7 +42,7 @@ def test_a_sharper_joint_is_narrower(arm):
 
 def test_four_bones_are_kept_and_the_fifth_fades_out():
     """Shares of the four strongest sum to 1, and a fourth equal to the fifth has none left: nothing can tear."""
-    joints, kept = strongest(np.array([[0.1, 0.1, 0.2, 0.25, 0.35]]))
+    joints, kept = strongest_weights(np.array([[0.1, 0.1, 0.2, 0.25, 0.35]]))
     assert np.isclose(kept.sum(), 1)
     assert joints[0, :3].tolist() == [4, 3, 2]
     assert kept[0, 3] == 0

@@ -256,7 +256,7 @@ def test_revisions_go_with_their_result(service, take):
 def test_there_is_an_end_to_revisions(service, fresh):
     """After a thousand of one result no more are kept, and that is said."""
     identifier, records = fresh.rpartition("/")[2], Jobs(connect(service.redis_url)).records
-    records.segmentations.change(identifier, lambda record: record.with_(revision=MOST_REVISIONS))
+    records.segmentations.change(identifier, lambda record: record.with_changes(revision=MOST_REVISIONS))
     answer = revise(service, fresh, WALK, match=f'"{MOST_REVISIONS}"')
     assert (answer.status_code, answer.json()["code"]) == (409, "too-many-revisions")
 

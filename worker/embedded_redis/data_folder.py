@@ -46,7 +46,7 @@ class ServerFolder:
             os.close(self._lock)
             self._lock = None
 
-    def written_by(self, program: str) -> Path:
+    def file_of_program(self, program: str) -> Path:
         """Where the server of a program keeps its file; raises `ServerUnavailable` where a newer one wrote that.
 
         Valkey and Redis keep apart, for neither reads all of the other.

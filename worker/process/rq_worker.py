@@ -20,7 +20,7 @@ from rq.serializers import JSONSerializer
 from caesura.worker.process.job_quota import resident_bytes
 from caesura.worker.process.priority import lower_priority
 from caesura.worker.process.work_horse import WorkHorse
-from caesura.worker.process.worker_registry import IDLE_SECONDS, sign
+from caesura.worker.process.worker_registry import IDLE_SECONDS, record_heartbeat
 from caesura.worker.queue.job_problems import KILLED, OUT_OF_MEMORY, OUT_OF_TIME
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.queue.queues import TASKS, JobTimer, TaskJob, rq_queue
@@ -54,7 +54,7 @@ class CaesuraWorker(Worker):
             job_monitoring_interval=MONITOR_SECONDS,
             maintenance_interval=MAINTENANCE_SECONDS,
             worker_ttl=IDLE_SECONDS,
-            work_horse_killed_handler=self._lost,
+            work_horse_killed_handler=self._handle_lost_job,
         )
         self._jobs = jobs
         self._prepare = prepare
@@ -135,7 +135,7 @@ class CaesuraWorker(Worker):
     def heartbeat(self, timeout: int | None = None, pipeline: Pipeline | None = None) -> None:
         """In the worker, and as a job begins: say that it lives."""
         super().heartbeat(timeout, pipeline)
-        sign(self, pipeline if pipeline is not None else self.connection)
+        record_heartbeat(self, pipeline if pipeline is not None else self.connection)
 
     def maintain_heartbeats(self, job: Job) -> None:
         """In the worker, every few seconds while the horse runs; a full disk of Redis's is for the horse to meet."""
@@ -149,7 +149,7 @@ class CaesuraWorker(Worker):
         if self.horse_pid:
             self.kill_horse()
 
-    def _lost(self, job: Job, pid: int | None, status: int | None, usage: Any) -> None:  # noqa: ARG002  RQ's hook
+    def _handle_lost_job(self, job: Job, pid: int | None, status: int | None, usage: Any) -> None:  # noqa: ARG002  RQ's hook
         """In the worker: the horse ended without a word."""
         ended_by = os.WTERMSIG(status) if status is not None and os.WIFSIGNALED(status) else None
         if status is None or ended_by == signal.SIGXCPU:
@@ -167,4 +167,4 @@ class CaesuraWorker(Worker):
         elif problem == OUT_OF_TIME:
             self._jobs.records.attempts.fail(identifier, token, problem)
         else:
-            self._jobs.again(identifier, token, problem)
+            self._jobs.retry(identifier, token, problem)

@@ -34,7 +34,7 @@ class WorkHorse:
             os.close(self._orders)
             os.close(self._reports)
             try:
-                _serve(parent, orders, reports, prepare, work)
+                _do_jobs(parent, orders, reports, prepare, work)
             finally:
                 os._exit(1)
         os.close(orders)
@@ -61,25 +61,25 @@ class WorkHorse:
         os.close(self._reports)
 
 
-def _serve(parent: int, orders: int, reports: int, prepare: Callable[[], None], work: WorkFunction) -> None:
+def _do_jobs(parent: int, orders: int, reports: int, prepare: Callable[[], None], work: WorkFunction) -> None:
     """In the fork: one job after the other, as long as it may."""
     os.setpgrp()  # what it starts is killed with it
     end_with_parent(parent)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
-    _call_it(READY)
+    _set_process_name(READY)
     prepare()
     with os.fdopen(orders) as lines:
         for order in iter(lines.readline, ""):
-            _call_it(WORKING)
+            _set_process_name(WORKING)
             again = work(order.rstrip("\n"))
             if not again:
                 os._exit(os.EX_OK)
-            _call_it(READY)
+            _set_process_name(READY)
             os.write(reports, b".")
     os._exit(os.EX_OK)
 
 
-def _call_it(name: str) -> None:
+def _set_process_name(name: str) -> None:
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(PR_SET_NAME, name.encode())

@@ -15,20 +15,20 @@ from rq.serializers import JSONSerializer
 
 from caesura.worker.queue.queues import QUEUES, rq_queue
 from caesura.worker.records import redis_keys
-from caesura.worker.records.connection import names
+from caesura.worker.records.connection import decode_names
 from caesura.worker.records.schema import Queue
 
 IDLE_SECONDS = 30  # a worker without a job gives a sign of life twice in so long
 REMOTE_SILENCE_SECONDS = 10**9
 
 
-def sign(worker: Worker, pipe: "Redis | Pipeline") -> None:
+def record_heartbeat(worker: Worker, pipe: "Redis | Pipeline") -> None:
     """Say that a worker lives, and serves its queues; also to a Redis that was emptied meanwhile."""
     worker_registration.register(worker, pipe)  # type: ignore[arg-type]  # sadd alone, which both have
     pipe.set(redis_keys.worker_key(worker.name), socket.gethostname(), ex=IDLE_SECONDS)
 
 
-def unserved(client: Redis) -> list[Queue]:
+def unserved_queues(client: Redis) -> list[Queue]:
     """The queues that no living worker takes jobs from."""
     return [name for name in QUEUES if not _hosts(client, worker_registration.WORKERS_BY_QUEUE_KEY % name)]
 
@@ -40,8 +40,10 @@ def has_live_worker_here(client: Redis) -> bool:
 
 def _hosts(client: Redis, registry: str) -> list[str]:
     """Where the living workers of one of RQ's sets are."""
-    workers = [key.removeprefix(Worker.redis_worker_namespace_prefix) for key in names(client.smembers(registry))]
-    return names(host for host in client.mget(map(redis_keys.worker_key, workers)) if host) if workers else []
+    workers = [
+        key.removeprefix(Worker.redis_worker_namespace_prefix) for key in decode_names(client.smembers(registry))
+    ]
+    return decode_names(host for host in client.mget(map(redis_keys.worker_key, workers)) if host) if workers else []
 
 
 def remove_dead_workers(client: Redis) -> None:

@@ -51,7 +51,7 @@ class Attempt:
             self.end_stage()
             self._stage, self._fraction = stage, 0.0
         self._fraction = min(max(fraction, self._fraction), 1.0)
-        if not self._teller.say(stage, self._fraction):
+        if not self._teller.report(stage, self._fraction):
             raise Superseded
 
     def end(self) -> None:
@@ -75,9 +75,9 @@ class Attempt:
         """End it with a problem."""
         self.records.attempts.fail(self.record.id, self.record.token, problem)
 
-    def again(self, problem: dict[str, Any]) -> None:
+    def retry(self, problem: dict[str, Any]) -> None:
         """Try it once more after a pause, or end it with the problem after the last attempt."""
-        self.jobs.again(self.record.id, self.record.token, problem, pause=True)
+        self.jobs.retry(self.record.id, self.record.token, problem, pause=True)
 
 
 def run_attempt(jobs: Jobs, identifier: str, token: str, work: Callable[[Attempt], None]) -> None:
@@ -99,7 +99,7 @@ def run_attempt(jobs: Jobs, identifier: str, token: str, work: Callable[[Attempt
         finally:
             attempt.end()
         counters.count_stages(jobs.redis, attempt.stage_seconds)
-        log.info("attempt %d ended", record.attempt, extra={"told": _milliseconds(attempt.stage_seconds)})
+        log.info("attempt %d ended", record.attempt, extra={"fields": _milliseconds(attempt.stage_seconds)})
 
 
 def _run_work(attempt: Attempt, work: Callable[[Attempt], None]) -> None:
@@ -116,7 +116,7 @@ def _run_work(attempt: Attempt, work: Callable[[Attempt], None]) -> None:
     except TimeLimit:
         raise
     except INFRASTRUCTURE:
-        attempt.again(UNAVAILABLE)
+        attempt.retry(UNAVAILABLE)
         raise
     except BaseException:  # a panic of the store's library is no Exception
         attempt.fail(INTERNAL_ERROR)

@@ -21,12 +21,12 @@ def submit_export(jobs: Jobs, identifier: str, form: str) -> ExportRecord:
         while True:
             pipe.watch(key, redis_keys.segmentation_key(identifier))
             kept = jobs.records.exports.one(identifier, form)
-            if kept is not None and _holds(jobs, kept):
+            if kept is not None and _has_pending_export(jobs, kept):
                 return kept
             if not pipe.exists(redis_keys.segmentation_key(identifier)):
                 return ExportRecord(problem=DELETED)
             jobs.queues.check_room()
-            pending = ExportRecord(token=content_ids.token())
+            pending = ExportRecord(token=content_ids.random_token())
             pipe.multi()
             pipe.set(key, pending.model_dump_json(), ex=2 * jobs.job_seconds)
             pipe.sadd(redis_keys.exports_key(identifier), form)
@@ -39,13 +39,13 @@ def submit_export(jobs: Jobs, identifier: str, form: str) -> ExportRecord:
             return pending
 
 
-def _holds(jobs: Jobs, export: ExportRecord) -> bool:
+def _has_pending_export(jobs: Jobs, export: ExportRecord) -> bool:
     """Whether there is a file, or a reason why there is none; or whether its job waits or runs.
 
     A reason that is not the file's holds for as long as it takes everybody who waits to hear it.
     """
     if export.pending:
-        return jobs.records.attempts.leased(export.token) or jobs.queues.waits("cut", export.token)
+        return jobs.records.attempts.leased(export.token) or jobs.queues.is_waiting("cut", export.token)
     passing = (export.problem or {}).get("kind") == "worker"
     return not passing or abs(time.time() - export.created) < PROBLEM_SECONDS
 
@@ -53,7 +53,7 @@ def _holds(jobs: Jobs, export: ExportRecord) -> bool:
 def submit_alternatives(jobs: Jobs, identifier: str) -> None:
     """Have the other numbers of motions worked out that a result has scored, when the takes before it are done."""
     with jobs.redis.pipeline() as pipe:
-        jobs.queues.put("analyse", "alternatives", [identifier], content_ids.token(), jobs.job_seconds, pipe)
+        jobs.queues.put("analyse", "alternatives", [identifier], content_ids.random_token(), jobs.job_seconds, pipe)
         pipe.execute()
 
 
@@ -61,7 +61,7 @@ def submit_sweep_if_due(jobs: Jobs) -> None:
     """Queue a look for what is kept too long, where nobody has within the last hour. Call it at any time."""
     if jobs.redis.set(redis_keys.LAST_SWEEP_KEY, b"1", nx=True, ex=SWEEP_SECONDS):
         with jobs.redis.pipeline() as pipe:
-            jobs.queues.put("cut", "sweep", [], content_ids.token(), SWEEP_SECONDS, pipe)
+            jobs.queues.put("cut", "sweep", [], content_ids.random_token(), SWEEP_SECONDS, pipe)
             pipe.execute()
     elif jobs.redis.ttl(redis_keys.LAST_SWEEP_KEY) > SWEEP_SECONDS:  # Redis's clock was ahead when it was set
         jobs.redis.expire(redis_keys.LAST_SWEEP_KEY, SWEEP_SECONDS)

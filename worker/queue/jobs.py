@@ -73,7 +73,7 @@ class Jobs:
         def change(record: SegmentationRecord) -> SegmentationRecord | None:
             nonlocal token
             token = record.token  # of the attempt that is cancelled: it may be a newer one than was seen before
-            return record.with_(status="cancelled", token="", stage="", fraction=0.0) if record.live else None
+            return record.with_changes(status="cancelled", token="", stage="", fraction=0.0) if record.live else None
 
         after = self.records.segmentations.change(identifier, change)
         if after is not None:
@@ -90,7 +90,7 @@ class Jobs:
 
     # What workers say, and who watches them.
 
-    def again(
+    def retry(
         self, identifier: str, token: str, problem: dict[str, Any], pause: bool = False
     ) -> SegmentationRecord | None:
         """The attempt was lost to the infrastructure: try once more, or fail with `problem` after the last attempt.
@@ -103,9 +103,9 @@ class Jobs:
             if record.token != token or not record.live:
                 return None
             if record.attempt >= self._attempts:
-                return record.with_(status="failed", problem=problem)
+                return record.with_changes(status="failed", problem=problem)
             fresh = self._attempt(record, attempt=record.attempt + 1)
-            return fresh.with_(due=time.time() + retry_delay_seconds(record.attempt)) if pause else fresh
+            return fresh.with_changes(due=time.time() + retry_delay_seconds(record.attempt)) if pause else fresh
 
         def also(pipe: Pipeline, after: SegmentationRecord) -> None:
             self._enqueue(pipe, after)
@@ -121,7 +121,7 @@ class Jobs:
 
         def change(record: SegmentationRecord) -> SegmentationRecord | None:
             same = record.token == token and record.status == "queued" and record.due
-            return record.with_(due=0.0) if same else None
+            return record.with_changes(due=0.0) if same else None
 
         return self.records.segmentations.change(identifier, change, self._enqueue)
 
@@ -142,7 +142,7 @@ class Jobs:
             digest = content_ids.heavy_digest(record.chosen().heavy(), record.algorithm)
             queue = "analyse" if self.records.analyses.one(record.animation, digest) is None else "cut"
         fresh = {"stage": "", "fraction": 0.0, "problem": None, "attempt": attempt, "queue": queue, "due": 0.0}
-        return record.with_(status="queued", token=content_ids.token(), **fresh)
+        return record.with_changes(status="queued", token=content_ids.random_token(), **fresh)
 
     def _enqueue(self, pipe: Pipeline, record: SegmentationRecord) -> None:
         if record.status == "queued" and not record.due:

@@ -27,7 +27,7 @@ class OrphanedJobWatch:
         missing = {r.token: r.id for r in live if not r.due and not _has_worker(self._jobs, r)}
         lost = missing.keys() & self._missed
         self._missed = missing.keys() - lost
-        return sum(self._jobs.again(missing[token], token, LOST) is not None for token in lost)
+        return sum(self._jobs.retry(missing[token], token, LOST) is not None for token in lost)
 
 
 def recover_orphaned_jobs(jobs: Jobs) -> int:
@@ -39,7 +39,7 @@ def recover_orphaned_jobs(jobs: Jobs) -> int:
     for paused in (record for record in live if record.due):
         jobs.resume(paused.id, paused.token)
     lost = [r for r in live if not r.due and (r.status == "running" or not _has_worker(jobs, r))]
-    return sum(jobs.again(record.id, record.token, LOST) is not None for record in lost)
+    return sum(jobs.retry(record.id, record.token, LOST) is not None for record in lost)
 
 
 def _pause_is_over(record: SegmentationRecord) -> bool:

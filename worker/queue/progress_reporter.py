@@ -25,7 +25,7 @@ class ProgressReporter:
         self._thread = threading.Thread(target=self._tell, name="teller", daemon=True)
         self._thread.start()
 
-    def say(self, stage: str, fraction: float) -> bool:
+    def report(self, stage: str, fraction: float) -> bool:
         """Have it told, and answer whether the words so far were wanted. Raises what writing one has raised."""
         with self._said:
             if self._fault is not None:
@@ -42,7 +42,7 @@ class ProgressReporter:
         self._thread.join()
 
     def _tell(self) -> None:
-        while word := self._next():
+        while word := self._next_report():
             try:
                 wanted = self._write(*word)
             except BaseException as fault:  # noqa: BLE001  it is raised where the next word is said
@@ -54,7 +54,7 @@ class ProgressReporter:
             with self._said:
                 self._said.wait_for(lambda: self._over, REPORT_SECONDS)
 
-    def _next(self) -> tuple[str, float] | None:
+    def _next_report(self) -> tuple[str, float] | None:
         """The newest word that was not told; None once there will be none."""
         with self._said:
             self._said.wait_for(lambda: self._over or self._word is not None)

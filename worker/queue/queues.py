@@ -113,7 +113,7 @@ class Queues:
         found = self._redis.lpos(self.key(record.queue), record.token)
         return found if isinstance(found, int) else None
 
-    def waits(self, queue: Queue, job_id: str) -> bool:
+    def is_waiting(self, queue: Queue, job_id: str) -> bool:
         """Whether a job has a place in a queue."""
         return self._redis.lpos(self.key(queue), job_id) is not None
 

@@ -3,7 +3,7 @@
 import redis
 
 from caesura.worker.records import redis_keys
-from caesura.worker.records.connection import names
+from caesura.worker.records.connection import decode_names
 from caesura.worker.records.schema import AnalysisRecord
 
 
@@ -19,7 +19,7 @@ class Analyses:
 
     def all(self, animation: str) -> dict[str, AnalysisRecord]:
         """All analyses of an animation, by digest."""
-        digests = sorted(names(self._redis.smembers(redis_keys.analyses_key(animation))))
+        digests = sorted(decode_names(self._redis.smembers(redis_keys.analyses_key(animation))))
         found = {digest: self.one(animation, digest) for digest in digests}
         return {digest: record for digest, record in found.items() if record is not None}
 

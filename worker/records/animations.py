@@ -5,7 +5,7 @@ import time
 import redis
 
 from caesura.worker.records import redis_keys
-from caesura.worker.records.connection import names
+from caesura.worker.records.connection import decode_names
 from caesura.worker.records.schema import TAKES, AnimationRecord, TakeSummary
 
 
@@ -56,7 +56,7 @@ class Animations:
         """When each animation was used last: uploaded, or asked to be cut."""
         return {
             name: score
-            for (name,), score in ((names([n]), s) for n, s in self._redis.zscan_iter(redis_keys.LAST_USED_KEY))
+            for (name,), score in ((decode_names([n]), s) for n, s in self._redis.zscan_iter(redis_keys.LAST_USED_KEY))
         }
 
     def touch(self, identifier: str) -> None:

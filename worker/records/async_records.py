@@ -6,7 +6,7 @@ from contextlib import aclosing
 from redis.asyncio import BlockingConnectionPool, Redis
 
 from caesura.worker.records import redis_keys
-from caesura.worker.records.connection import names
+from caesura.worker.records.connection import decode_names
 from caesura.worker.records.schema import TAKES, AnimationRecord, ExportRecord, SegmentationRecord, TakeSummary
 from caesura.worker.records.subscription import ChannelListener, Messages
 
@@ -62,7 +62,7 @@ class AsyncRecords:
 
     async def _newest(self, key: str, limit: int, before: float | None) -> list[str]:
         highest = "+inf" if before is None else f"({before!r}"
-        return names(await self.redis.zrevrangebyscore(key, highest, "-inf", start=0, num=limit))
+        return decode_names(await self.redis.zrevrangebyscore(key, highest, "-inf", start=0, num=limit))
 
     async def document(self, identifier: str) -> bytes | str | None:
         """The result document, JSON, as stored."""
@@ -72,22 +72,24 @@ class AsyncRecords:
         """A file made of a result, or None where none was asked for."""
         return ExportRecord.read(await self.redis.get(redis_keys.export_key(segmentation, form)))
 
-    async def changes(self, identifier: str, deaf: Messages = frozenset()) -> AsyncGenerator[SegmentationRecord | None]:
+    async def follow_changes(
+        self, identifier: str, deaf: Messages = frozenset()
+    ) -> AsyncGenerator[SegmentationRecord | None]:
         """The record now, and again after every change and every 3 s; None once it is deleted.
 
         Listens before it reads, so that no change is missed. Words that it is `deaf` to are changes that do not
         matter. Ends never: leave it through `async with aclosing(records.changes(id)) as changes`.
         """
         channel = redis_keys.channel(identifier)
-        async with self._listener.hearing(channel, deaf) as ear:
+        async with self._listener.subscribe(channel, deaf) as ear:
             while True:
                 yield await self.segmentation(identifier)
-                await ear.woken(REREAD_SECONDS)
-                await self._listener.attend(channel)
+                await ear.wait(REREAD_SECONDS)
+                await self._listener.listen(channel)
 
-    async def ended(self, identifier: str) -> SegmentationRecord | None:
+    async def wait_until_ended(self, identifier: str) -> SegmentationRecord | None:
         """The record as soon as it is no longer live; None once it is deleted. Waits for ever."""
-        async with aclosing(self.changes(identifier, LIVE_STATES)) as changes:
+        async with aclosing(self.follow_changes(identifier, LIVE_STATES)) as changes:
             async for record in changes:
                 if record is None or not record.live:
                     return record

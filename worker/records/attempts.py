@@ -27,7 +27,7 @@ class Attempts:
 
         def change(record: SegmentationRecord) -> SegmentationRecord | None:
             wanted = record.token == token and record.status == "queued"
-            return record.with_(status="running", stage="", fraction=0.0) if wanted else None
+            return record.with_changes(status="running", stage="", fraction=0.0) if wanted else None
 
         return self._segmentations.change(identifier, change, lambda pipe, _: self.renew(token, pipe))
 
@@ -41,7 +41,9 @@ class Attempts:
 
     def change(self, identifier: str, token: str, **changes: Any) -> SegmentationRecord | None:
         """Change a running segmentation's fields where `token` is still its attempt; None where it is not."""
-        return self._segmentations.change(identifier, lambda r: r.with_(**changes) if _running(r, token) else None)
+        return self._segmentations.change(
+            identifier, lambda r: r.with_changes(**changes) if _running(r, token) else None
+        )
 
     def finish(self, identifier: str, token: str, document: str, arrays: dict[str, bytes], **summary: Any) -> bool:
         """running -> done, with the result document and the byte arrays `energy` and `labels`, all at once."""
@@ -52,7 +54,7 @@ class Attempts:
             pipe.set(redis_keys.segmentation_key(identifier, "labels"), arrays["labels"])
 
         done = {"status": "done", "stage": "", "fraction": 1.0, "problem": None, **summary}
-        change: Change = lambda r: r.with_(**done) if _running(r, token) else None  # noqa: E731  one line says it
+        change: Change = lambda r: r.with_changes(**done) if _running(r, token) else None  # noqa: E731  one line says it
         return self._segmentations.change(identifier, change, also) is not None
 
     def fail(self, identifier: str, token: str, problem: dict[str, Any]) -> bool:

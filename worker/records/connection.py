@@ -16,7 +16,7 @@ def connect(url: str) -> redis.Redis:
     return redis.Redis.from_url(url, health_check_interval=30)
 
 
-def names(values: Iterable[Any]) -> list[str]:
+def decode_names(values: Iterable[Any]) -> list[str]:
     """Redis's values as text; redis-py types them `bytes | str`, but without `decode_responses` they are bytes."""
     return [bytes(value).decode() for value in values]
 

@@ -48,7 +48,7 @@ def heavy_digest(heavy: dict[str, object], algorithm: str) -> str:
     return _digest(b"", "analysis", json.dumps(heavy, sort_keys=True), algorithm)
 
 
-def token() -> str:
+def random_token() -> str:
     """A name that no other attempt has."""
     return secrets.token_hex(12)
 

@@ -3,7 +3,7 @@
 import redis
 
 from caesura.worker.records import redis_keys
-from caesura.worker.records.connection import names
+from caesura.worker.records.connection import decode_names
 from caesura.worker.records.schema import ExportRecord
 
 
@@ -19,7 +19,7 @@ class ResultFiles:
 
     def forms(self, segmentation: str) -> list[str]:
         """The forms that were asked for."""
-        return sorted(names(self._redis.smembers(redis_keys.exports_key(segmentation))))
+        return sorted(decode_names(self._redis.smembers(redis_keys.exports_key(segmentation))))
 
     def write(self, segmentation: str, form: str, record: ExportRecord) -> bool:
         """Keep where the file is, or why there is none; False where the segmentation was deleted meanwhile."""

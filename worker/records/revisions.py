@@ -29,7 +29,7 @@ def add_revision(
     def change(record: SegmentationRecord) -> SegmentationRecord | None:
         fits = expected is None or record.revision == expected
         wanted = record.status == "done" and fits and record.revision < MOST_REVISIONS
-        return record.with_(revision=record.revision + 1) if wanted else None
+        return record.with_changes(revision=record.revision + 1) if wanted else None
 
     def also(pipe: Pipeline, record: SegmentationRecord) -> None:
         head = RevisionRecord(number=record.revision, created=now, note=note)
@@ -44,7 +44,7 @@ def add_revision(
     return None if after is None else RevisionRecord(number=after.revision, created=now, note=note)
 
 
-def edits_of(records: Records, identifier: str, number: int) -> tuple[Edit, ...] | None:
+def read_edits(records: Records, identifier: str, number: int) -> tuple[Edit, ...] | None:
     """The segments of a revision, or None where there is none."""
     return _read(records.redis.hget(redis_keys.revised_key(identifier), str(number)))
 

@@ -156,6 +156,6 @@ class SegmentationRecord(_Record):
         """The parameters as core takes them."""
         return Parameters.model_validate(self.parameters)
 
-    def with_(self, **changes: Any) -> "SegmentationRecord":
+    def with_changes(self, **changes: Any) -> "SegmentationRecord":
         """The same record but for `changes`."""
         return self.model_copy(update=changes)

@@ -8,7 +8,7 @@ from redis.client import Pipeline
 
 from caesura.core.errors import CaesuraError
 from caesura.worker.records import counters, redis_keys
-from caesura.worker.records.connection import names
+from caesura.worker.records.connection import decode_names
 from caesura.worker.records.schema import SegmentationRecord
 
 Change = Callable[[SegmentationRecord], SegmentationRecord | None]
@@ -33,12 +33,12 @@ class Segmentations:
 
     def of(self, animation: str) -> list[SegmentationRecord]:
         """All segmentations of an animation, newest first."""
-        ids = names(self._redis.zrevrange(redis_keys.segmentations_key(animation), 0, -1))
+        ids = decode_names(self._redis.zrevrange(redis_keys.segmentations_key(animation), 0, -1))
         return [record for record in map(self.one, ids) if record is not None]
 
     def live(self) -> list[SegmentationRecord]:
         """All segmentations that are queued or running."""
-        ids = sorted(names(self._redis.smembers(redis_keys.LIVE_SEGMENTATIONS_KEY)))
+        ids = sorted(decode_names(self._redis.smembers(redis_keys.LIVE_SEGMENTATIONS_KEY)))
         return [record for record in map(self.one, ids) if record is not None and record.live]
 
     def result(self, identifier: str) -> tuple[bytes | None, bytes | None, bytes | None]:
@@ -70,7 +70,7 @@ class Segmentations:
                 if after is None:
                     pipe.unwatch()
                     return None
-                after = after.with_(updated=time.time())
+                after = after.with_changes(updated=time.time())
                 pipe.multi()
                 _write(pipe, after)
                 counters.count_change(pipe, before, after)

@@ -14,7 +14,7 @@ from redis.exceptions import RedisError
 from caesura.worker.records import redis_keys
 
 LISTEN_SECONDS = 3.0
-NOWHERE = redis_keys.channel("")
+IDLE_CHANNEL = redis_keys.channel("")
 """Always listened to, so that the connection is never one for other calls; nobody speaks there."""
 
 Messages = frozenset[bytes]
@@ -27,12 +27,12 @@ class Subscription:
         self._deaf = deaf
         self._woken = asyncio.Event()
 
-    def hear(self, word: bytes) -> None:
+    def notify(self, word: bytes) -> None:
         """What was said."""
         if word not in self._deaf:
             self._woken.set()
 
-    async def woken(self, seconds: float) -> None:
+    async def wait(self, seconds: float) -> None:
         """Until something is said, or was since the last time; at most so long."""
         with suppress(TimeoutError):
             async with asyncio.timeout(seconds):
@@ -52,19 +52,19 @@ class ChannelListener:
         self._reading: asyncio.Task[None] | None = None
 
     @asynccontextmanager
-    async def hearing(self, channel: str, deaf: Messages = frozenset()) -> AsyncIterator[Subscription]:
+    async def subscribe(self, channel: str, deaf: Messages = frozenset()) -> AsyncIterator[Subscription]:
         """An ear on a channel, once the server has said that it is listened to."""
         ear = Subscription(deaf)
         self._ears.setdefault(channel, set()).add(ear)
         try:
-            await self.attend(channel)
+            await self.listen(channel)
             yield ear
         finally:
             self._ears[channel].discard(ear)
             if not self._ears[channel]:
                 del self._ears[channel]  # the channel itself is left by the one who reads: this may be a cancel
 
-    async def attend(self, channel: str) -> None:
+    async def listen(self, channel: str) -> None:
         """Listen to a channel, where a broken connection has ended that. Raises what redis-py raises."""
         if channel not in self._confirmed:
             async with self._lock:
@@ -90,7 +90,7 @@ class ChannelListener:
 
     async def _open(self) -> None:
         pubsub = self._redis.pubsub()
-        await pubsub.subscribe(NOWHERE)
+        await pubsub.subscribe(IDLE_CHANNEL)
         self._pubsub = pubsub
         self._reading = asyncio.create_task(self._read(pubsub))
 
@@ -99,9 +99,9 @@ class ChannelListener:
             while True:
                 message = await pubsub.get_message(timeout=LISTEN_SECONDS)
                 if message is not None:
-                    self._pass_on(message["type"], bytes(message["channel"]).decode(), message["data"])
+                    self._dispatch(message["type"], bytes(message["channel"]).decode(), message["data"])
                 if self._confirmed.keys() - self._ears.keys():
-                    await self._leave(pubsub)
+                    await self._unsubscribe(pubsub)
         except (RedisError, OSError):
             self._pubsub = None
             self._confirmed.clear()
@@ -110,7 +110,7 @@ class ChannelListener:
             with suppress(RedisError, OSError):
                 await pubsub.aclose()
 
-    def _pass_on(self, kind: str, channel: str, word: bytes) -> None:
+    def _dispatch(self, kind: str, channel: str, word: bytes) -> None:
         if kind == "subscribe" and channel in self._confirmed:
             self._confirmed[channel].set()
         elif kind == "message":
@@ -118,9 +118,9 @@ class ChannelListener:
 
     def _wake(self, channel: str, word: bytes) -> None:
         for ear in self._ears.get(channel, ()):
-            ear.hear(word)
+            ear.notify(word)
 
-    async def _leave(self, pubsub: PubSub) -> None:
+    async def _unsubscribe(self, pubsub: PubSub) -> None:
         """Stop listening where nobody waits any more."""
         async with self._lock:
             left = [c for c, confirmed in self._confirmed.items() if confirmed.is_set() and c not in self._ears]

@@ -12,7 +12,7 @@ from caesura.worker.records.connection import await_writes
 from caesura.worker.records.schema import AnimationRecord
 from caesura.worker.store.blobs import Blobs
 
-OF_UPLOAD = ("clips", "keyframes")
+RESULT_FILES_WITH_UPLOAD = ("clips", "keyframes")
 """Forms that hold what was uploaded: they go with it."""
 
 WRITES_SECONDS = 3.0
@@ -21,7 +21,7 @@ WRITES_SECONDS = 3.0
 
 def delete_segmentation(jobs: Jobs, blobs: Blobs, identifier: str) -> None:
     """Cancel a segmentation where it is live, and delete it with every file made of it; the analysis stays."""
-    _make_room(jobs, blobs, _exported(jobs.records, identifier))
+    _delete_blobs(jobs, blobs, _result_file_blobs(jobs.records, identifier))
     _delete_all_result_files(jobs, blobs, identifier)
     jobs.delete(identifier)
     _delete_all_result_files(jobs, blobs, identifier)  # one that was kept in this moment; from now on none is
@@ -29,7 +29,7 @@ def delete_segmentation(jobs: Jobs, blobs: Blobs, identifier: str) -> None:
 
 def delete_animation(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
     """Delete an upload and everything derived from it, also what is asked for while it is being deleted."""
-    _make_room(jobs, blobs, blobs_of(jobs.records, animation))
+    _delete_blobs(jobs, blobs, blobs_of_animation(jobs.records, animation))
     while True:
         for segmentation in jobs.records.segmentations.of(animation.id):
             delete_segmentation(jobs, blobs, segmentation.id)
@@ -38,23 +38,23 @@ def delete_animation(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> No
             return
 
 
-def _make_room(jobs: Jobs, blobs: Blobs, keys: Iterator[str]) -> None:
+def _delete_blobs(jobs: Jobs, blobs: Blobs, keys: Iterator[str]) -> None:
     """Delete blobs, and wait until Redis takes writes, which it does at once where its disk was not full."""
     for key in keys:
         blobs.delete(key)
     await_writes(jobs.redis, WRITES_SECONDS)
 
 
-def blobs_of(records: Records, animation: AnimationRecord) -> Iterator[str]:
+def blobs_of_animation(records: Records, animation: AnimationRecord) -> Iterator[str]:
     """Every blob of an upload, and of what was made of it."""
     yield from (part.key for part in animation.parts)
     for analysis in records.analyses.all(animation.id).values():
         yield from analysis.blobs()
     for segmentation in records.segmentations.of(animation.id):
-        yield from _exported(records, segmentation.id)
+        yield from _result_file_blobs(records, segmentation.id)
 
 
-def _exported(records: Records, identifier: str) -> Iterator[str]:
+def _result_file_blobs(records: Records, identifier: str) -> Iterator[str]:
     """The blobs of files made of a result."""
     made = (records.exports.one(identifier, form) for form in records.exports.forms(identifier))
     yield from (one.key for one in made if one is not None and one.key is not None)
@@ -64,7 +64,7 @@ def delete_result_files(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) ->
     """Delete an upload's files, what was computed from them, and copies of them in clips; results stay."""
     for segmentation in jobs.records.segmentations.of(animation.id):
         for form in jobs.records.exports.forms(segmentation.id):
-            if form.partition("?")[0] in OF_UPLOAD:
+            if form.partition("?")[0] in RESULT_FILES_WITH_UPLOAD:
                 delete_result_file(jobs.records, blobs, segmentation.id, form)
     for digest, analysis in jobs.records.analyses.all(animation.id).items():
         for key in analysis.blobs():

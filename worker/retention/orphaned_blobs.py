@@ -8,8 +8,8 @@ import time
 from collections.abc import Iterator
 
 from caesura.worker.records import Records, redis_keys
-from caesura.worker.records.connection import names
-from caesura.worker.retention.deletion import blobs_of
+from caesura.worker.records.connection import decode_names
+from caesura.worker.retention.deletion import blobs_of_animation
 from caesura.worker.store.blobs import Blobs
 
 
@@ -19,7 +19,7 @@ def delete_orphaned_blobs(records: Records, blobs: Blobs, doubt_seconds: float) 
     stored = dict(blobs.all())  # before the pointers: what is kept meanwhile is not even seen
     pointed = set(_pointers(records))
     kept = records.redis.hgetall(redis_keys.ORPHAN_CANDIDATES_KEY)
-    doubted = {key: float(since) for key, since in zip(names(kept), kept.values(), strict=True)}
+    doubted = {key: float(since) for key, since in zip(decode_names(kept), kept.values(), strict=True)}
     doubtful = {key: min(doubted.get(key, now), now) for key in stored if key not in pointed}
     orphans = [key for key, since in doubtful.items() if key in doubted and since <= now - doubt_seconds]
     for key in orphans:
@@ -28,7 +28,7 @@ def delete_orphaned_blobs(records: Records, blobs: Blobs, doubt_seconds: float) 
     for key in stored.keys() - set(orphans):
         kind = key.partition("/")[0]
         sizes[kind] = sizes.get(kind, 0) + stored[key]
-    _note(records, {key: since for key, since in doubtful.items() if key not in orphans}, sizes)
+    _store_doubtful(records, {key: since for key, since in doubtful.items() if key not in orphans}, sizes)
     return sizes
 
 
@@ -37,10 +37,10 @@ def _pointers(records: Records) -> Iterator[str]:
     for identifier in records.animations.uses():
         animation = records.animations.one(identifier)
         if animation is not None:
-            yield from blobs_of(records, animation)
+            yield from blobs_of_animation(records, animation)
 
 
-def _note(records: Records, doubtful: dict[str, float], sizes: dict[str, int]) -> None:
+def _store_doubtful(records: Records, doubtful: dict[str, float], sizes: dict[str, int]) -> None:
     """Keep what is in doubt for the next look, and the sizes for whoever asks."""
     with records.redis.pipeline() as pipe:
         pipe.delete(redis_keys.ORPHAN_CANDIDATES_KEY, redis_keys.STORE_KEY)

@@ -7,7 +7,7 @@ import time
 from redis import Redis
 from redis.exceptions import ResponseError
 
-from caesura.worker.clock import gone_evenly
+from caesura.worker.clock import is_clock_steady
 from caesura.worker.queue.auxiliary_jobs import SWEEP_SECONDS
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.records import redis_keys
@@ -24,7 +24,7 @@ DOUBT_SECONDS = 3600.0
 
 def sweep_by_clock(jobs: Jobs, blobs: Blobs, keep_upload: float, keep_result: float, now: float) -> None:
     """`sweep` where the clock can be trusted, else only count; and have the names of what was deleted forgotten."""
-    if gone_evenly(jobs.redis, max(min(keep_upload, keep_result) / 2, 2 * SWEEP_SECONDS), now):
+    if is_clock_steady(jobs.redis, max(min(keep_upload, keep_result) / 2, 2 * SWEEP_SECONDS), now):
         sweep(jobs, blobs, keep_upload, keep_result, now=now)
     else:
         delete_orphaned_blobs(jobs.records, blobs, math.inf)

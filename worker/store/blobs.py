@@ -68,7 +68,7 @@ class Blobs:
         Raises OSError or obstore's `BaseError` where the store is full or unreachable; the file then stays.
         """
         key = _new_key(kind)
-        if self._folder is None or not _moved(path, self._folder / key):
+        if self._folder is None or not _move(path, self._folder / key):
             obstore.put(self._store, key, path)
             path.unlink(missing_ok=True)
         return key
@@ -99,7 +99,7 @@ class Blobs:
         with _missing(key):
             return int(obstore.head(self._store, key)["size"])
 
-    def has(self, key: str) -> bool:
+    def exists(self, key: str) -> bool:
         """Whether it is there."""
         try:
             return self.size(key) >= 0
@@ -180,7 +180,7 @@ def _new_key(kind: Kind) -> str:
     return f"{kind}/{secrets.token_hex(16)}"
 
 
-def _moved(path: Path, target: Path) -> bool:
+def _move(path: Path, target: Path) -> bool:
     """Move a file to its name for good, or say that it lies on another file system."""
     target.parent.mkdir(parents=True, exist_ok=True)
     try:

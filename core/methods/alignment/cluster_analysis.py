@@ -52,5 +52,5 @@ def _recut(
     member = (given.labels == np.arange(given.labels.max() + 1)[:, None]).astype(np.float64)
     spread = np.einsum("ci,ij,cj->c", member, alike, member, optimize=True) / member.sum(axis=1) ** 2
     head, group = np.empty(len(kernel), np.int64), np.empty(len(kernel), np.int64)
-    cost = alignment.cut_anew(kernel, weights, given.bounds, given.labels, spread, longest, head, group)
+    cost = alignment.segment_for_groups(kernel, weights, given.bounds, given.labels, spread, longest, head, group)
     return AlignedClusters(Segments.traced(head, group), cost)

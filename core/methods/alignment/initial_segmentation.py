@@ -37,7 +37,7 @@ class InitialSegmentation:
         """Embeds the samples by propagated likeness. `as_measured`: lengths as the authors' program takes them."""
         lengths = lengths.within(len(kernel))
         propagated = np.zeros_like(kernel)
-        alignment.persistent_likeness(kernel, lengths.longest, propagated)
+        alignment.persistent_similarity(kernel, lengths.longest, propagated)
         return cls(kernel, weights, groups, lengths, spectral_embedding(propagated, groups), as_measured)
 
     def start(self, seed: int) -> Segments:

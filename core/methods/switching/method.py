@@ -23,7 +23,7 @@ def switching(analysis: Analysis, parameters: Parameters) -> Cut:
     keys = extract_key_frames(analysis.energy, analysis.peaks, window, parameters.threshold)
     features = tuple(feature for feature in analysis.features if feature.values.shape[1])
     with single_threaded_blas():
-        weighings = analysis.once(Weightings.of)
+        weighings = analysis.derived(Weightings.of)
         alike = weighings.by()
         if alike is None:
             notices = _fewer_motions_notice(parameters.motions, 1)

@@ -82,13 +82,13 @@ def join_all_takes(
     first = [0]
     for length in lengths:
         first.append(first[-1] + int(min(length, until)))
-    _note(notices, chosen, first)
+    _note_joined_takes(notices, chosen, first)
     vertices = tuple(pose(take, start) for take, start in zip(tracks, starts, strict=True))
     take = Take(-1, "all", (sum(lengths) - 1) / rate, frames, rate)
     return SampledTake(JoinedTakes(vertices, tuple(first), from_frame), frames, from_frame / rate, take)
 
 
-def _note(notices: Notices, chosen: list[ChosenTake], first: list[int]) -> None:
+def _note_joined_takes(notices: Notices, chosen: list[ChosenTake], first: list[int]) -> None:
     told = ", ".join(f"{take.name[:40]!r} at {frame}" for take, frame in zip(chosen[:SHOWN], first, strict=False))
     more = f", and {len(chosen) - SHOWN} more" if len(chosen) > SHOWN else ""
     notices.add("takes-joined", f"All {len(chosen)} takes follow each other. They begin at these frames: {told}{more}.")

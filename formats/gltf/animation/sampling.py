@@ -13,7 +13,7 @@ from caesura.formats.kernels.keyframe_sampling import CUBIC, LINEAR, STEP, sampl
 MODES = {"STEP": STEP, "LINEAR": LINEAR, "CUBICSPLINE": CUBIC}
 PLACES = {"translation": T.start, "rotation": R.start, "scale": S.start}
 
-Slots = dict[int, int]
+PoseSlots = dict[int, int]
 """Where a node's numbers begin in the pose of a frame."""
 
 
@@ -28,7 +28,7 @@ class KeyTracks:
     has.
     """
 
-    still: Float[np.ndarray, "numbers"]
+    rest_pose: Float[np.ndarray, "numbers"]
     times: Float[np.ndarray, "all_times"]
     values: Float[np.ndarray, "all_values"]
     first_key: Int[np.ndarray, "channels"]
@@ -48,7 +48,7 @@ class KeyTracks:
         LINEAR rotations turn along the shorter arc, CUBICSPLINE tangents are scaled by the distance of their
         keys and rotations normalised (glTF 2.0, appendix C).
         """
-        out = np.tile(self.still, (len(seconds), 1))
+        out = np.tile(self.rest_pose, (len(seconds), 1))
         sample_tracks(
             seconds, self.times, self.first_key, self.keys, self.values, self.first_value, self.width, self.mode,
             self.is_rotation, self.slot, out,
@@ -57,17 +57,21 @@ class KeyTracks:
 
 
 def read_tracks(
-    accessors: Accessors, channels: list[Channel], still: Float[np.ndarray, "numbers"], nodes: Slots, weights: Slots
+    accessors: Accessors,
+    channels: list[Channel],
+    still: Float[np.ndarray, "numbers"],
+    nodes: PoseSlots,
+    weights: PoseSlots,
 ) -> KeyTracks:
     """The keys of `channels`. Channels of nodes that are not in `nodes` or `weights` move nothing that is drawn."""
     used = [channel for channel in channels if channel.node in (weights if channel.path == "weights" else nodes)]
     inputs = {channel.input.index: channel.input for channel in channels}
     clocks = {index: _times(accessors, layout) for index, layout in inputs.items()}
-    times, first_key = _joined(clocks)
+    times, first_key = _concatenate(clocks)
     outputs = {channel.output.index: channel for channel in used}
-    values, first_value = _joined({index: _values(accessors, channel) for index, channel in outputs.items()})
+    values, first_value = _concatenate({index: _values(accessors, channel) for index, channel in outputs.items()})
     return KeyTracks(
-        still=still,
+        rest_pose=still,
         times=times,
         values=values,
         first_key=_column([first_key[channel.input.index] for channel in used]),
@@ -107,11 +111,11 @@ def _width(channel: Channel) -> int:
     return WIDTHS.get(channel.path) or channel.output.count // (channel.input.count * tangents)
 
 
-def _slot(channel: Channel, nodes: Slots, weights: Slots) -> int:
+def _slot(channel: Channel, nodes: PoseSlots, weights: PoseSlots) -> int:
     return weights[channel.node] if channel.path == "weights" else nodes[channel.node] + PLACES[channel.path]
 
 
-def _joined(arrays: dict[int, Float[np.ndarray, "_"]]) -> tuple[Float[np.ndarray, "_"], dict[int, int]]:
+def _concatenate(arrays: dict[int, Float[np.ndarray, "_"]]) -> tuple[Float[np.ndarray, "_"], dict[int, int]]:
     """All arrays as one, and where each begins in it."""
     sizes = np.cumsum([0, *(len(array) for array in arrays.values())]).tolist()
     joined = np.concatenate(list(arrays.values())) if arrays else np.zeros(0, np.float32)

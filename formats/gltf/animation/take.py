@@ -64,4 +64,4 @@ def choose_animation(document: GltfDocument, accessors: Accessors, wanted: str |
 def last_key_seconds(accessors: Accessors, channels: list[Channel]) -> float:
     """Seconds of the last key, which is how long a take is; -1 where nothing moves."""
     inputs = {channel.input.index: channel.input for channel in channels}
-    return max((accessors.last(layout) for layout in inputs.values()), default=-1.0)
+    return max((accessors.last_scalar(layout) for layout in inputs.values()), default=-1.0)

@@ -90,7 +90,7 @@ def replace_draco_attributes(
     if named is None or "POSITION" not in named:
         raise extension.refusal("POSITION is not among the compressed attributes.", name="attributes")
     found = {
-        name: _from_stream(layout, stream, named.whole(name)) if name in named else layout
+        name: _layout_from_stream(layout, stream, named.whole(name)) if name in named else layout
         for name, layout in attributes.items()
     }
     # Draco makes 32-bit corners of any.
@@ -106,5 +106,5 @@ def _corners_of_strip(data: memoryview, corners: int) -> int:
     return 3 * faces if faces <= max(corners - 2, 0) else corners
 
 
-def _from_stream(layout: AccessorLayout, stream: DracoStream, unique_id: int) -> AccessorLayout:
+def _layout_from_stream(layout: AccessorLayout, stream: DracoStream, unique_id: int) -> AccessorLayout:
     return replace(layout, unpack=lambda wanted: stream.attribute(unique_id, wanted))

@@ -81,7 +81,7 @@ class Accessors:
         sparse = entry.entry("sparse")
         return values if sparse is None else self._replaced(values, layout, sparse)
 
-    def last(self, layout: AccessorLayout) -> float:
+    def last_scalar(self, layout: AccessorLayout) -> float:
         """The last element of a list of scalars, without reading the others; NaN of an empty list."""
         if layout.count == 0 or "bufferView" not in layout.entry or "sparse" in layout.entry:
             values = self.elements(layout)

@@ -58,7 +58,7 @@ def read_nodes(document: GltfDocument) -> NodeGraph:
             if parent[child] >= 0 or child == node:
                 raise entries[child].refusal("The node has two parents, or is its own.", "invalid-node-graph")
             parent[child] = node
-    order = _from_the_roots(parent, children)
+    order = _parents_first(parent, children)
     if len(order) < len(entries):
         lost = next(iter(set(range(len(entries))) - set(order)))
         raise entries[lost].refusal("The node is below itself.", "invalid-node-graph")
@@ -117,7 +117,7 @@ def _children(entry: JsonObject, count: int) -> list[int]:
     return children
 
 
-def _from_the_roots(parent: Int[np.ndarray, "N"], children: list[list[int]]) -> list[int]:
+def _parents_first(parent: Int[np.ndarray, "N"], children: list[list[int]]) -> list[int]:
     """Every node that can be reached, after its parent; without recursion, for chains may be long."""
     order = np.flatnonzero(parent < 0).tolist()
     for node in order:

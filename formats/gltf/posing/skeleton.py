@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from caesura.formats.gltf.animation.sampling import Slots
+from caesura.formats.gltf.animation.sampling import PoseSlots
 from caesura.formats.gltf.posing.nodes import NodeGraph
 from caesura.formats.gltf.scene_mesh import SceneMesh
 from caesura.formats.kernels.posing import compute_bone_matrices, compute_world_matrices
@@ -30,7 +30,7 @@ class Skeleton:
         return matrices
 
 
-def read_skeleton(graph: NodeGraph, figure: SceneMesh) -> tuple[Skeleton, Float[np.ndarray, "numbers"], Slots]:
+def read_skeleton(graph: NodeGraph, figure: SceneMesh) -> tuple[Skeleton, Float[np.ndarray, "numbers"], PoseSlots]:
     """The nodes that move `figure`, their own poses in one row, and where each node's ten numbers begin."""
     nodes = graph.with_ancestors(figure.bone_node)
     place = np.full(len(graph.parent) + 1, -1)  # the last stands for the parent of a root, -1

@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float
 
 from caesura.core.errors import InvalidModel
-from caesura.formats.gltf.animation.sampling import KeyTracks, Slots
+from caesura.formats.gltf.animation.sampling import KeyTracks, PoseSlots
 from caesura.formats.gltf.posing.skeleton import Skeleton
 from caesura.formats.gltf.scene_mesh import SceneMesh
 from caesura.formats.kernels.posing import skin_morphed_vertices, skin_vertices
@@ -29,7 +29,7 @@ class PosedVertices:
     figure: SceneMesh
     skeleton: Skeleton
     tracks: KeyTracks
-    weight_slots: Slots
+    weight_slots: PoseSlots
     frame_rate: float
     start_seconds: float = 0.0
 
@@ -52,7 +52,7 @@ class PosedVertices:
 
     @property
     def _frames_at_once(self) -> int:
-        numbers = len(self.tracks.still) + 12 * len(self.skeleton.parent) + 12 * len(self.skeleton.bone_node)
+        numbers = len(self.tracks.rest_pose) + 12 * len(self.skeleton.parent) + 12 * len(self.skeleton.bone_node)
         return min(max(SCRATCH_BYTES // (8 * numbers), 1), MOST_FRAMES)
 
     def _draw(

@@ -31,14 +31,14 @@ def test_what_is_out_of_range_gets_the_first_and_the_last_code():
 def test_the_percentile_is_numpys_to_a_ten_thousandth(size):
     """Whatever the unit of the data is."""
     values = (size * np.random.default_rng(0).gamma(2.0, size=(300, 400))).astype(np.float32)
-    coding = Quantisation.around(float(values[:, ::40].max()))
+    coding = Quantisation.for_largest(float(values[:, ::40].max()))
     found = find_normalising_strain("p99.9", coding, histogram(coding, values), float(values.max()), 1.0)
     assert found == pytest.approx(np.percentile(values, 99.9), rel=5e-5)
 
 
 def test_the_percentile_of_equal_values_is_that_value():
     """All in one code: exact to the code's step."""
-    coding = Quantisation.around(0.37)
+    coding = Quantisation.for_largest(0.37)
     values = np.full((5, 7), 0.37, np.float32)
     assert coding.percentile(histogram(coding, values)) == pytest.approx(0.37, rel=1 / 4096)
 
@@ -56,7 +56,7 @@ def test_the_other_rules_of_normalising():
 @pytest.mark.parametrize("levels", [2, 10, 64])
 def test_edges_of_bins_are_in_their_place_to_an_eight_thousandth(levels):
     """A value is above the i-th edge where it is above i / B of the scale, but for the half step about it."""
-    coding, scale = Quantisation.around(0.5), 0.31
+    coding, scale = Quantisation.for_largest(0.5), 0.31
     edges = coding.edges(scale, levels)
     for i, edge in enumerate(edges.tolist(), start=1):
         at = scale * i / levels
@@ -94,8 +94,8 @@ def test_codes_from_a_floor_on_are_counted_one_by_one_and_all_below_together():
 
 def test_the_percentile_of_two_values_is_measured_once_more_at_most():
     """One of them far below the other: the code that tells it lumps the other with all above, and that is right."""
-    values, coding = np.float32([[1e-4, 0.5]]), Quantisation.around(0.5)
+    values, coding = np.float32([[1e-4, 0.5]]), Quantisation.for_largest(0.5)
     counts = histogram(coding, values)
-    again = Quantisation.around(coding.percentile(counts))
-    assert not coding.tells_edges(coding.percentile(counts), 10, counts)
+    again = Quantisation.for_largest(coding.percentile(counts))
+    assert not coding.resolves_edges(coding.percentile(counts), 10, counts)
     assert again.reaches_percentile(histogram(again, values))

@@ -78,10 +78,10 @@ def test_many_points_have_the_functions_that_few_have():
     assert len(place) > DENSE
     laplacian = Laplacian.of(triangles, len(place))
     weights, areas = laplacian.at(place.astype(np.float64)[:, :, None])
-    few, modes = laplacian.smoothest(weights[:, 0], areas[:, 0], 12)
+    few, modes = laplacian.smoothest_functions(weights[:, 0], areas[:, 0], 12)
     np.testing.assert_allclose(few[1], (np.pi / 29) ** 2, rtol=0.01)  # half a wave along a sheet of length 29
     np.testing.assert_allclose(modes.T @ (areas * modes), np.eye(12), atol=1e-8)
-    again, same = laplacian.smoothest(weights[:, 0], areas[:, 0], 12)
+    again, same = laplacian.smoothest_functions(weights[:, 0], areas[:, 0], 12)
     np.testing.assert_array_equal(few, again)
     np.testing.assert_array_equal(modes, same)
 

@@ -14,7 +14,7 @@ from caesura.core.repetition.repetition_ends import find_repetition_ends
 from caesura.core.repetition.repetitions import RepetitionFinder, find_repetitions
 from caesura.core.repetition.segment_features import segment_features
 from caesura.formats.read import read_animation
-from caesura.samples.figures import FIGURES, figure
+from caesura.samples.figures import FIGURES, build_figure
 
 RATE = 30.0
 
@@ -85,7 +85,7 @@ def test_beats_of_a_period_that_cannot_fit_are_the_passage():
 @pytest.mark.parametrize("name", FIGURES)
 def test_the_figures_repetitions_are_counted(name):
     """In nine segments of ten at least, as many as were performed, ending within a tenth of a second in the mean."""
-    sample = figure(name)
+    sample = build_figure(name)
     truth = sample.truth
     take = read_animation({"figure.glb": sample.glb}, Parameters(), Limits.none(), lambda n: memoryview(bytearray(n)))
     analysis = analyse(take, Parameters())
@@ -99,7 +99,7 @@ def test_the_figures_repetitions_are_counted(name):
 
 def test_a_result_says_its_repeats():
     """They tile each segment of the document, for the default method."""
-    sample = figure("rigid")
+    sample = build_figure("rigid")
     take = read_animation({"figure.glb": sample.glb}, Parameters(), Limits.none(), lambda n: memoryview(bytearray(n)))
     found = segment(take, Parameters(motions=6))
     counts = [len(s.repeats) for s in found.document().segments]

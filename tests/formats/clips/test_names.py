@@ -3,7 +3,7 @@
 import pytest
 
 from caesura.core.errors import ParameterError
-from caesura.formats.clips.clip_names import number_repeated_names, safe_name
+from caesura.formats.clips.clip_names import engine_safe_name, number_repeated_names
 from caesura.formats.clips.clip_options import ClipOptions
 
 
@@ -20,7 +20,7 @@ from caesura.formats.clips.clip_options import ClipOptions
 )
 def test_what_means_something_to_an_engine_is_left_out(name, expected):
     """Letters of any script, digits, dashes and underscores stay."""
-    assert safe_name(name) == expected
+    assert engine_safe_name(name) == expected
 
 
 def test_names_are_numbered_by_motion_and_unique_in_any_case():

@@ -15,7 +15,7 @@ from caesura.formats.playback.playback_files import make_playback
 from caesura.formats.playback.strain_blocks import choose_display_patches, write_strain_blocks
 from caesura.formats.playback.vertex_blocks import LARGEST, choose_display_mesh, write_vertex_blocks
 from caesura.formats.read import read_animation
-from caesura.samples.figures import figure
+from caesura.samples.figures import build_figure
 
 MODELS = [
     "CesiumMan.glb", "Fox.glb", "Horse.glb", "RiggedSimple.glb", "variants/Fox_quantized.glb",
@@ -114,13 +114,13 @@ def test_a_plain_copy_moves_as_the_file_does(name: str, shared: Path) -> None:
 @pytest.mark.parametrize("name", ["smooth", "rigid"])
 def test_a_plain_copy_of_our_own_figures_moves_as_they_do(name: str) -> None:
     """The same where no other model is at hand."""
-    animation, copy, _ = plain(figure(name).glb)
+    animation, copy, _ = plain(build_figure(name).glb)
     assert max(same_motion(animation, copy)) < 1e-6
 
 
 def test_a_plain_copy_holds_nothing_that_is_not_played() -> None:
     """One animation, no image, no material, no name; every vertex knows its patch."""
-    _, copy, strain = plain(figure("smooth").glb)
+    _, copy, strain = plain(build_figure("smooth").glb)
     document = json.loads(copy[20 : 20 + int.from_bytes(copy[12:16], "little")])
     assert len(document["animations"]) == 1
     assert not document.keys() & {"images", "textures", "samplers", "materials", "cameras", "extensionsRequired"}
@@ -147,7 +147,7 @@ def without_meshes(data: bytes) -> bytes:
 
 def test_a_skeleton_without_a_mesh_is_shown_by_its_joints() -> None:
     """The joints that are taken are marked, for the page to draw bones between; nothing is strained."""
-    data = without_meshes(figure("smooth").glb)
+    data = without_meshes(build_figure("smooth").glb)
     parts = {"model": data}
     animation = read_animation(parts, Parameters(), Limits(), scratch)
     shown = make_playback(animation, analyse(animation))

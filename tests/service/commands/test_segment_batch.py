@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from caesura.samples.figures import figure
+from caesura.samples.figures import build_figure
 from caesura.service.commands.cli import main
 from caesura.service.commands.files import output_paths
 from tests.conftest import unavailable
@@ -126,7 +126,7 @@ def test_a_form_that_a_result_has_not_does_not_cost_the_others(takes):
 def test_clips_replace_clips_and_their_source_but_no_other_model(takes):
     """An option that swallowed the first of two files would have written the second's clips over it."""
     for name in ("one.glb", "two.glb"):
-        (takes / name).write_bytes(figure("rigid").glb)
+        (takes / name).write_bytes(build_figure("rigid").glb)
     source = (takes / "one.glb").read_bytes()
     swallowed = caesura(takes, "segment", "--clips", "one.glb", "two.glb", "--motions", "2")
     assert swallowed.returncode == 2

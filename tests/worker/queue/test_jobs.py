@@ -45,12 +45,12 @@ def test_a_late_attempt_writes_nothing(idle, take):
     """Once another attempt has begun, the old one can tell no progress, no result and no failure."""
     record = idle.submit(idle.upload(take))
     old = idle.records.attempts.begin(record.id, record.token)
-    newer = idle.jobs.again(old.id, old.token, LOST)
+    newer = idle.jobs.retry(old.id, old.token, LOST)
     assert (newer.status, newer.attempt) == ("queued", 2)
     assert idle.records.attempts.change(old.id, old.token, stage="late") is None
     assert not idle.records.attempts.finish(old.id, old.token, "late", RESULT)
     assert not idle.records.attempts.fail(old.id, old.token, LOST)
-    assert idle.jobs.again(old.id, old.token, LOST) is None
+    assert idle.jobs.retry(old.id, old.token, LOST) is None
     assert idle.records.segmentations.one(old.id) == newer
     assert idle.records.segmentations.result(old.id) == (None, None, None)
 
@@ -60,7 +60,7 @@ def test_attempts_are_bounded_and_then_posting_again_starts_anew(idle, take):
     animation = idle.upload(take)
     record = idle.submit(animation)
     for _ in range(idle.settings.attempts):
-        record = idle.jobs.again(record.id, record.token, LOST)
+        record = idle.jobs.retry(record.id, record.token, LOST)
     assert (record.status, record.problem) == ("failed", LOST)
     fresh = idle.submit(animation)
     assert (fresh.status, fresh.attempt, fresh.problem) == ("queued", 1, None)

@@ -33,12 +33,12 @@ def test_after_a_fault_of_the_infrastructure_it_pauses(idle, take):
     watch, record = OrphanedJobWatch(idle.jobs), idle.submit(idle.upload(take))
     idle.records.attempts.begin(record.id, record.token)
     idle.redis.delete("rq:queue:analyse")  # its worker had taken it from there
-    paused = idle.jobs.again(record.id, record.token, LOST, pause=True)
+    paused = idle.jobs.retry(record.id, record.token, LOST, pause=True)
     assert (paused.status, paused.attempt, idle.jobs.queues.position(paused)) == ("queued", 2, None)
     assert 0 < paused.due - time.time() <= retry_delay_seconds(1)
     assert [watch.look(), watch.look()] == [0, 0]
     assert idle.jobs.queues.position(paused) is None
-    idle.records.segmentations.change(record.id, lambda r: r.with_(due=time.time() - 1))
+    idle.records.segmentations.change(record.id, lambda r: r.with_changes(due=time.time() - 1))
     assert watch.look() == 0
     resumed = idle.records.segmentations.one(record.id)
     assert (resumed.attempt, resumed.token, resumed.due) == (2, paused.token, 0)
@@ -48,8 +48,8 @@ def test_after_a_fault_of_the_infrastructure_it_pauses(idle, take):
 def test_a_pause_does_not_outlast_a_clock_that_was_put_back(idle, take):
     """What is due in an hour was not set by this clock."""
     watch, record = OrphanedJobWatch(idle.jobs), idle.submit(idle.upload(take))
-    paused = idle.jobs.again(record.id, record.token, LOST, pause=True)
-    idle.records.segmentations.change(record.id, lambda r: r.with_(due=time.time() + 3600))
+    paused = idle.jobs.retry(record.id, record.token, LOST, pause=True)
+    idle.records.segmentations.change(record.id, lambda r: r.with_changes(due=time.time() + 3600))
     watch.look()
     assert idle.records.segmentations.one(paused.id).due == 0
 
@@ -65,7 +65,7 @@ def test_a_clock_that_jumps_loses_no_attempt(idle, take):
     running = idle.records.attempts.begin(record.id, record.token)
     for jumped in (running.updated - 3e7, running.updated + 3e7):
         key = redis_keys.segmentation_key(record.id)
-        idle.redis.set(key, running.with_(updated=jumped, created=jumped).model_dump_json())
+        idle.redis.set(key, running.with_changes(updated=jumped, created=jumped).model_dump_json())
         assert [watch.look() for _ in range(3)] == [0, 0, 0]
     assert 0 < idle.redis.ttl(redis_keys.lease_key(record.token)) <= LEASE_SECONDS
     idle.redis.delete(redis_keys.lease_key(record.token))
@@ -76,7 +76,7 @@ def test_when_a_server_starts_whatever_ran_is_lost_at_once(idle, take):
     """A lease may still run, but no worker can be alive. What waits stays in its place, and no pause is waited for."""
     running, waiting, pausing = (idle.submit(idle.upload(take)) for _ in range(3))
     idle.records.attempts.begin(running.id, running.token)
-    idle.jobs.again(pausing.id, pausing.token, LOST, pause=True)
+    idle.jobs.retry(pausing.id, pausing.token, LOST, pause=True)
     assert recover_orphaned_jobs(idle.jobs) == 1
     after = [idle.records.segmentations.one(record.id) for record in (running, waiting, pausing)]
     assert [(record.status, record.attempt) for record in after] == [("queued", 2), ("queued", 1), ("queued", 2)]

@@ -23,7 +23,7 @@ def test_waiting_is_woken_by_the_change(idle, take):
     record = idle.submit(idle.upload(take))
 
     async def use(records):
-        waiting = asyncio.create_task(records.ended(record.id))
+        waiting = asyncio.create_task(records.wait_until_ended(record.id))
         await asyncio.sleep(0.2)
         await asyncio.to_thread(idle.jobs.cancel, record.id)
         began = time.monotonic()
@@ -39,7 +39,7 @@ def test_waiting_sleeps_through_progress(idle, take):
     record = idle.submit(idle.upload(take))
 
     async def use(records):
-        waiting = asyncio.create_task(records.ended(record.id))
+        waiting = asyncio.create_task(records.wait_until_ended(record.id))
         await asyncio.sleep(0.2)
         before = (await records.redis.info("commandstats"))["cmdstat_get"]["calls"]
         idle.records.attempts.begin(record.id, record.token)
@@ -58,14 +58,14 @@ def test_all_who_wait_listen_on_one_connection(idle, take):
     waited = [idle.submit(idle.upload(take)) for _ in range(5)]
 
     async def use(records):
-        waiting = [asyncio.create_task(records.ended(record.id)) for record in waited * 4]
+        waiting = [asyncio.create_task(records.wait_until_ended(record.id)) for record in waited * 4]
         await asyncio.sleep(0.3)
         heard = await records.redis.pubsub_channels("caesura:changed:?*")
         listening = [one for one in await records.redis.client_list() if int(one["sub"])]
         for record in waited:
             await asyncio.to_thread(idle.jobs.cancel, record.id)
         told = await asyncio.gather(*waiting)
-        late = asyncio.create_task(records.ended("nobody's"))
+        late = asyncio.create_task(records.wait_until_ended("nobody's"))
         await late
         await asyncio.sleep(0.2)
         left = await records.redis.pubsub_channels("caesura:changed:?*")
@@ -81,7 +81,7 @@ def test_waiting_outlives_a_broken_connection(idle, take):
     record = idle.submit(idle.upload(take))
 
     async def use(records):
-        waiting = asyncio.create_task(records.ended(record.id))
+        waiting = asyncio.create_task(records.wait_until_ended(record.id))
         await asyncio.sleep(0.2)
         for one in await records.redis.client_list():
             if int(one["sub"]):
@@ -99,7 +99,7 @@ def test_changes_end_with_the_record(idle, take):
 
     async def use(records):
         told = []
-        async with aclosing(records.changes(record.id)) as changes:
+        async with aclosing(records.follow_changes(record.id)) as changes:
             async for seen in changes:
                 told.append(seen and seen.status)
                 if seen is None:

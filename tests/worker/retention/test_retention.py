@@ -57,7 +57,7 @@ def test_an_old_result_goes_and_the_record_with_the_last_one(place, done):
     """Nothing of it stays: no blob, no key."""
     animation, cut = done
     place.redis.zadd(redis_keys.LAST_USED_KEY, {animation.id: 0})
-    kept = place.records.segmentations.one(cut.id).with_(updated=0.0)
+    kept = place.records.segmentations.one(cut.id).with_changes(updated=0.0)
     place.redis.set(redis_keys.segmentation_key(cut.id), kept.model_dump_json())
     sweep(place.jobs, place.blobs, 3600, LONG / 1e3)
     assert files(place, *done) == []

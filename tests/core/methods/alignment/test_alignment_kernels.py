@@ -48,7 +48,7 @@ def test_the_best_segmentation_of_all_is_found(seed, weighted):
     members = (labels == np.arange(2)[:, None]) / 2
     spread = np.einsum("ci,ij,cj->c", members, dynamic_time_alignment_kernel(kernel, weights, bounds), members)
     head, group = np.empty(10, np.int64), np.empty(10, np.int64)
-    cost = alignment.cut_anew(kernel, weights, bounds, labels, spread, 4, head, group)
+    cost = alignment.segment_for_groups(kernel, weights, bounds, labels, spread, 4, head, group)
     assert cost == pytest.approx(oracles.least_recut(kernel, weights, bounds, labels, 4), abs=1e-12)
     assert Segments.traced(head, group).lengths.max() <= 4
 
@@ -58,7 +58,7 @@ def test_likeness_that_persists_is_propagated(longest):
     """As by looking at every pair and every lag."""
     kernel, _ = row_of_samples(11, longest)
     out = np.zeros_like(kernel)
-    alignment.persistent_likeness(kernel, longest, out)
+    alignment.persistent_similarity(kernel, longest, out)
     np.testing.assert_array_equal(out, oracles.persistent(kernel, longest))
 
 
