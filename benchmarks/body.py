@@ -6,8 +6,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from benchmarks.acclaim import Acclaim
-from caesura.samples.surface import Limb, Surface, polygonise_limbs
-from caesura.samples.weights import heat_weights
+from caesura.samples.implicit_surface import Limb, Surface, polygonise_limbs
+from caesura.samples.skin_weights import heat_weights
 
 CELL = 0.0315  # metres: about 5,700 triangles
 SHARPNESS = 0.4  # flesh gives over somewhat more than the thickness of the limb

@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from caesura.samples.body import build_body
-from caesura.samples.model import rigid_glb, smooth_glb
-from caesura.samples.motions import PAIRED, Motion
-from caesura.samples.parts import build_parts
+from caesura.samples.figure_glb import rigid_glb, smooth_glb
+from caesura.samples.motion_curves import PAIRED, Motion
+from caesura.samples.performed_take import RATE, Part, Sample, perform_take
 from caesura.samples.repertoire import MOTIONS, STILL, T_POSE
-from caesura.samples.take import RATE, Part, Sample, perform_take
+from caesura.samples.robot_parts import build_parts
+from caesura.samples.smooth_body import build_body
 
 SECONDS = (3.5, 10.0)  # of a segment
 

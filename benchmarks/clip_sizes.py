@@ -15,12 +15,12 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from caesura.core.document import Segment, SegmentationDocument, Source, motion_name
 from caesura.core.errors import CaesuraError
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
+from caesura.core.segmentation_document import Segment, SegmentationDocument, Source, motion_name
 from caesura.formats.clips.clip_options import ClipOptions
-from caesura.formats.clips.write import write_clips
+from caesura.formats.clips.write_clips import write_clips
 from caesura.formats.read import read_animation
 
 CUTS = (0.21, 0.48, 0.77)

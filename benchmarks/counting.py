@@ -20,7 +20,7 @@ from benchmarks.sequences import Known, kept_back
 from caesura.core.agreement import frame_accuracy
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import cut
-from caesura.samples.session import long_session
+from caesura.samples.long_session import long_session
 
 COUNTS = (3, 8, 15, 30)
 FIRST_SEED = 401

@@ -11,8 +11,8 @@ from jaxtyping import Float, Int
 from scipy.spatial.transform import Rotation
 
 from caesura.formats.gltf.writer import Channel, GlbWriter, Primitive
-from caesura.samples.surface import Limb, polygonise_limbs
-from caesura.samples.weights import heat_weights, strongest_weights
+from caesura.samples.implicit_surface import Limb, polygonise_limbs
+from caesura.samples.skin_weights import heat_weights, strongest_weights
 
 RATE = 30.0
 SECONDS = (0.7, 2.6)  # of one cycle

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Int
 
-from caesura.samples.body import Body, build_body
-from caesura.samples.figures import CHOREOGRAPHIES, SEEDS
-from caesura.samples.model import smooth_glb
+from caesura.samples.figure_glb import smooth_glb
+from caesura.samples.implicit_surface import Surface
+from caesura.samples.performed_take import RATE, Part, Take, perform_take
 from caesura.samples.repertoire import MOTIONS
-from caesura.samples.surface import Surface
-from caesura.samples.take import RATE, Part, Take, perform_take
-from caesura.samples.weights import strongest_weights
+from caesura.samples.sample_figures import CHOREOGRAPHIES, SEEDS
+from caesura.samples.skin_weights import strongest_weights
+from caesura.samples.smooth_body import Body, build_body
 
 CELL = 0.0178  # metres: a fourth of the triangles wanted; every one is cut into four
 FRAMES = 1_047

@@ -14,10 +14,10 @@ from jaxtyping import Float, Int
 from caesura.core.animation import Animation, Take
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
+from caesura.formats.file_header import read_header
 from caesura.formats.gltf.animation.sampling import KeyTracks
 from caesura.formats.gltf.posing.nodes import R
 from caesura.formats.gltf.posing.vertices import PosedVertices
-from caesura.formats.header import read_header
 from caesura.formats.read import read_animation
 
 RATE = 30.0

@@ -33,7 +33,7 @@ from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import segment
 from caesura.formats.read import read_animation
-from caesura.samples.session import long_session
+from caesura.samples.long_session import long_session
 
 ROOT = Path(__file__).resolve().parent.parent
 DOCS = ROOT / "docs" / "performance.md"

@@ -22,8 +22,8 @@ from caesura.core.methods.switching.switching_k_means import run_switching_k_mea
 from caesura.core.methods.switching.windowed_signal import DescriptorWindows
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse, cut
-from caesura.samples.figures import build_figure
-from caesura.samples.take import Truth
+from caesura.samples.performed_take import Truth
+from caesura.samples.sample_figures import build_figure
 
 WIDTH, LEFT, BAR = 860, 150, 24  # pixels
 COLOURS = ("#4477aa", "#ccbb44", "#ee6677", "#228833", "#66ccee", "#aa3377")  # Tol's bright scheme, colour-blind safe

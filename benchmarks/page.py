@@ -21,10 +21,10 @@ from benchmarks.processes import service
 from benchmarks.report import write_section
 from benchmarks.session import DOCS, SOFTWARE_WEBGL
 from caesura.api import open_animation
-from caesura.samples.body import build_body
-from caesura.samples.model import smooth_glb
-from caesura.samples.session import long_session, plan_session
-from caesura.samples.take import perform_take
+from caesura.samples.figure_glb import smooth_glb
+from caesura.samples.long_session import long_session, plan_session
+from caesura.samples.performed_take import perform_take
+from caesura.samples.smooth_body import build_body
 from caesura.service.commands.client import Client
 
 FRAMES = 1000

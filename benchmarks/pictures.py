@@ -10,8 +10,8 @@ from playwright.sync_api import Browser, FilePayload, Page, expect, sync_playwri
 
 from benchmarks.processes import service
 from benchmarks.session import SOFTWARE_WEBGL
-from caesura.samples.figures import build_figure
-from caesura.samples.session import long_session
+from caesura.samples.long_session import long_session
+from caesura.samples.sample_figures import build_figure
 from caesura.service.commands.client import Client
 
 DOCS = Path(__file__).resolve().parent.parent / "docs"

@@ -20,7 +20,7 @@ from caesura.core.agreement import cut_frames
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import cut
 from caesura.core.repetition.repetitions import RepetitionFinder, find_repetitions
-from caesura.samples.figures import FIGURES, build_figure
+from caesura.samples.sample_figures import FIGURES, build_figure
 
 FIRST_SEED = 901
 TOLERANCE_SECONDS = 0.5

@@ -21,8 +21,8 @@ from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse
 from caesura.formats.read import read_animation
-from caesura.samples.figures import FIGURES, build_figure
-from caesura.samples.take import Sample
+from caesura.samples.performed_take import Sample
+from caesura.samples.sample_figures import FIGURES, build_figure
 
 DEVELOPMENT = frozenset({"fox_hard_0", "godotman_hard_0", "figure smooth", "figure rigid", "86_09"})
 """Takes on which the default method's constants were fixed, besides those of seeds below `HELD_BACK`."""

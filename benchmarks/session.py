@@ -16,8 +16,8 @@ from playwright.sync_api import Page, sync_playwright
 from benchmarks.processes import Watch, service
 from benchmarks.report import write_section
 from caesura.core.limits import Limits
-from caesura.formats.header import read_header
-from caesura.samples.session import long_session
+from caesura.formats.file_header import read_header
+from caesura.samples.long_session import long_session
 from caesura.service.commands.client import Client
 from caesura.service.commands.labelling import Labelling, compute_agreement
 

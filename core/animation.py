@@ -7,7 +7,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from jaxtyping import Float, Int
 
-from caesura.core.document import Notice
+from caesura.core.segmentation_document import Notice
 
 
 @runtime_checkable

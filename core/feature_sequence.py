@@ -4,11 +4,11 @@ import numpy as np
 from jaxtyping import Real
 
 from caesura.core.analysis import Analysis, Features
-from caesura.core.document import Source
 from caesura.core.errors import InvalidModel, ParameterError
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import cut
 from caesura.core.segmentation import Segmentation
+from caesura.core.segmentation_document import Source
 
 NEEDS_VERTICES = frozenset({"joint-entropy"})
 """Methods of the energy curve, which is of a surface; there is none without vertices."""

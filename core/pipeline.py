@@ -10,7 +10,6 @@ from caesura.core.block_pass.measured_body import MeasuredBody
 from caesura.core.block_pass.rest_pose import compute_rest_pose
 from caesura.core.block_pass.strain_at_peaks import measure_strain_at_peaks
 from caesura.core.block_pass.vertex_pass import PassResult, run_block_pass
-from caesura.core.document import Notice, Source
 from caesura.core.energy.energy_curve import compute_energy_curve, frames_per_window
 from caesura.core.energy.key_frames import find_local_maxima
 from caesura.core.errors import InvalidModel
@@ -19,6 +18,7 @@ from caesura.core.parameters import ALGORITHM, Parameters
 from caesura.core.progress import Progress, ignore_progress
 from caesura.core.repetition.repetitions import RepetitionFinder, find_repetitions
 from caesura.core.segmentation import Segmentation, number_by_appearance
+from caesura.core.segmentation_document import Notice, Source
 
 CODES_BYTES = 128 * 2**20
 """Memory for the codes of strains; those of frames that do not fit are computed twice."""

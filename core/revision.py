@@ -9,8 +9,8 @@ from unicodedata import normalize
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from caesura.core.document import Interval, KeyFrame, Segment, SegmentationDocument, motion_name
 from caesura.core.errors import ParameterError
+from caesura.core.segmentation_document import Interval, KeyFrame, Segment, SegmentationDocument, motion_name
 
 LONGEST_NAME = 100
 JOINERS = "\u200c\u200d"

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float, Int
 
-from caesura.core.document import (
+from caesura.core.segmentation_document import (
     Interval,
     KeyFrame,
     Notice,

@@ -6,9 +6,9 @@ from collections import Counter
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from caesura.core.document import Notice
 from caesura.core.errors import BrokenContainer, InvalidModel
 from caesura.core.limits import Limits
+from caesura.core.segmentation_document import Notice
 from caesura.formats.gltf.container import Container, open_container
 from caesura.formats.gltf.json_object import JsonObject
 from caesura.formats.notices import Notices

@@ -1,6 +1,6 @@
 """What a reader assumed or left out, told once each however often it happened. Light: no NumPy."""
 
-from caesura.core.document import Notice
+from caesura.core.segmentation_document import Notice
 
 
 class Notices:

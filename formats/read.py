@@ -10,12 +10,12 @@ from caesura.core.errors import InvalidModel, UnsupportedMedia
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
 from caesura.formats.buffer_file import BufferFile
-from caesura.formats.bundle.members import ZipMembers, refuse_nested_archive
 from caesura.formats.bundle.read import read_member, read_shapes
+from caesura.formats.bundle.zip_members import ZipMembers, refuse_nested_archive
 from caesura.formats.bvh.gltf_conversion import convert_bvh_to_glb
+from caesura.formats.file_header import read_header
 from caesura.formats.file_type import SIGNATURE_BYTES, detect_file_type
 from caesura.formats.gltf.read import read_gltf
-from caesura.formats.header import read_header
 from caesura.formats.mesh_and_motion import pair_mesh_and_motion
 from caesura.formats.npz.read import read_npz
 

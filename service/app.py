@@ -15,7 +15,17 @@ from caesura.service.http.security_headers import SecurityHeadersMiddleware
 from caesura.service.metrics import Metrics
 from caesura.service.problems import exception_handlers
 from caesura.service.request_log import RequestLogMiddleware
-from caesura.service.routes import about, animations, clips, health, pages, results, revisions, segmentations, session
+from caesura.service.routes import (
+    animations,
+    clips,
+    health,
+    methods_and_limits,
+    pages,
+    results,
+    revisions,
+    segmentations,
+    session,
+)
 from caesura.service.settings import ServiceSettings
 from caesura.service.uploads.body_limit import BodyLimit
 from caesura.service.uploads.capacity import Capacity, require_capacity
@@ -45,7 +55,7 @@ def create_app(settings: ServiceSettings) -> FastAPI:
     app.state.headroom = Capacity()
     app.state.metrics = Metrics()
     exception_handlers.install_handlers(app)
-    for routes in (animations, segmentations, results, revisions, clips, session, about, health):
+    for routes in (animations, segmentations, results, revisions, clips, session, methods_and_limits, health):
         app.include_router(routes.router, dependencies=[Depends(refuse_unknown_names), Depends(require_capacity)])
     app.include_router(pages.router)
     pages.mount_page_files(app)

@@ -22,7 +22,7 @@ from caesura.worker.records import content_ids
 from caesura.worker.records.async_records import AsyncRecords
 from caesura.worker.records.connection import connect
 from caesura.worker.records.layout_version import check_layout
-from caesura.worker.records.schema import AnimationRecord, SegmentationRecord
+from caesura.worker.records.record_types import AnimationRecord, SegmentationRecord
 from caesura.worker.store.blobs import Blobs
 from caesura.worker.store.temporary_files import delete_abandoned_files
 

@@ -17,7 +17,7 @@ from caesura.core.parameters import ALGORITHM, Parameters
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.records import Records, content_ids
 from caesura.worker.records.connection import connect
-from caesura.worker.records.schema import AnimationRecord, Part, SegmentationRecord
+from caesura.worker.records.record_types import AnimationRecord, Part, SegmentationRecord
 from caesura.worker.settings import WorkerSettings
 from caesura.worker.store.blobs import Blobs
 from tests.animations import performing_bar

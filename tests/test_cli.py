@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from caesura.samples.figures import build_figure
+from caesura.samples.sample_figures import build_figure
 from caesura.service.commands.local_service import local_service
 
 FRAMES = 300

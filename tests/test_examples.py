@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from caesura.samples.figures import build_figure
+from caesura.samples.sample_figures import build_figure
 from caesura.service.commands.local_service import local_service
 from tests.installation import take_npz
 

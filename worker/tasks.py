@@ -3,15 +3,14 @@
 import time
 from contextlib import suppress
 
-from caesura.core.alternatives import cut_into_other_motion_counts
 from caesura.core.analysis import Analysis
-from caesura.core.document import SegmentationDocument
+from caesura.core.other_motion_counts import cut_into_other_motion_counts
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse, cut
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.playback.playback_files import make_playback
 from caesura.formats.read import read_animation
-from caesura.worker import result_files
-from caesura.worker.alternatives import store_alternative
+from caesura.worker import result_file_writers
 from caesura.worker.process.job_quota import JobQuota
 from caesura.worker.process.thread_count import available_threads
 from caesura.worker.process.warm_up import rehearse_cuts
@@ -19,10 +18,11 @@ from caesura.worker.process.worker_context import stored_analysis, worker_contex
 from caesura.worker.queue.attempt import Attempt, Superseded, run_attempt
 from caesura.worker.queue.auxiliary_jobs import submit_alternatives
 from caesura.worker.records import content_ids
-from caesura.worker.records.schema import AnalysisRecord, AnimationRecord, ViewerRecord
-from caesura.worker.retention.retention import sweep_by_clock
+from caesura.worker.records.record_types import AnalysisRecord, AnimationRecord, ViewerRecord
+from caesura.worker.retention.sweep import sweep_by_clock
 from caesura.worker.store.blobs import BlobMissing, Blobs
 from caesura.worker.store.memory_maps import map_parts, scratch_space
+from caesura.worker.stored_alternatives import store_alternative
 
 DAY = 24 * 3600.0
 
@@ -62,7 +62,7 @@ def run_alternatives(identifier: str) -> None:
 def run_export(identifier: str, form: str) -> None:
     """A file made of a result, for the web process has no arrays."""
     here = worker_context()
-    result_files.make_result_file(here.jobs.records, here.blobs, here.settings, identifier, form)
+    result_file_writers.make_result_file(here.jobs.records, here.blobs, here.settings, identifier, form)
 
 
 def run_sweep() -> None:

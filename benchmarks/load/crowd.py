@@ -17,8 +17,8 @@ from benchmarks.load.calls import Calls
 from benchmarks.load.measure import Measure, percentile
 from benchmarks.load.takes import different
 from benchmarks.processes import Running, descendants, role
-from caesura.samples.session import long_session
-from caesura.samples.take import RATE
+from caesura.samples.long_session import long_session
+from caesura.samples.performed_take import RATE
 
 SMALL, LARGE = 300, 9_000
 """Frames: ten seconds, five minutes."""

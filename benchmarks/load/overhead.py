@@ -11,7 +11,7 @@ from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse, cut
 from caesura.formats.playback.playback_files import make_playback
 from caesura.formats.read import read_animation
-from caesura.samples.figures import build_figure
+from caesura.samples.sample_figures import build_figure
 from caesura.worker.process.thread_count import available_threads
 from caesura.worker.process.warm_up import warm_up
 

@@ -7,7 +7,7 @@ from redis import Redis
 from benchmarks.load.calls import Calls
 from benchmarks.load.measure import Measure, percentile
 from benchmarks.load.takes import different
-from caesura.samples.figures import build_figure
+from caesura.samples.sample_figures import build_figure
 from caesura.worker.records import redis_keys
 
 TAKES = 5

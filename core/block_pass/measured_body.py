@@ -11,11 +11,11 @@ from caesura.core.descriptors.pair_strain import PairStrain
 from caesura.core.descriptors.patch_means import PatchMeans
 from caesura.core.descriptors.strain import TILE, TriangleStrain
 from caesura.core.descriptors.table import DESCRIPTORS, Descriptor, DescriptorInput
-from caesura.core.document import Notice
 from caesura.core.errors import InvalidModel
 from caesura.core.mesh.patches import assign_patches
 from caesura.core.mesh.triangle_order import order_triangles
 from caesura.core.parameters import Parameters
+from caesura.core.segmentation_document import Notice
 
 
 @dataclass(frozen=True)

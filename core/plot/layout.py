@@ -5,8 +5,8 @@ import unicodedata
 from collections.abc import Iterable, Iterator
 from itertools import groupby
 
-from caesura.core.document import Segment, SegmentationDocument, motion_name
 from caesura.core.plot.picture import TEXT, Box, Dot, Label, Line, Picture, Point
+from caesura.core.segmentation_document import Segment, SegmentationDocument, motion_name
 
 LEFT, TOP, WIDTH, CURVE, GAP, BAR, BELOW, RIGHT = 64, 14, 880, 200, 8, 28, 44, 16
 INK, FAINT, DISCARDED, KEY = "#222222", "#9a9a9a", "#dddddd", "#c1121f"

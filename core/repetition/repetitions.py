@@ -7,10 +7,10 @@ import numpy as np
 from jaxtyping import Int
 
 from caesura.core.analysis import Analysis, Features
-from caesura.core.document import Interval
 from caesura.core.repetition.period import find_period
 from caesura.core.repetition.repetition_ends import find_repetition_ends
 from caesura.core.repetition.segment_features import segment_features
+from caesura.core.segmentation_document import Interval
 from caesura.core.single_threaded_blas import single_threaded_blas
 
 FADE_SECONDS = 0.25

@@ -15,7 +15,7 @@ from sklearn.metrics import adjusted_rand_score
 from sklearn.pipeline import make_pipeline
 
 from caesura import MotionFeatures, MotionSegmenter, open_animation, segment
-from caesura.samples.figures import build_figure
+from caesura.samples.sample_figures import build_figure
 
 
 def main(table: Path) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from caesura import segment
 from caesura.formats.clips.clip_options import ClipOptions
-from caesura.formats.clips.write import write_clips
+from caesura.formats.clips.write_clips import write_clips
 
 DOUBTFUL = 3
 

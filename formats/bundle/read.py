@@ -9,10 +9,10 @@ from caesura.core.animation import Animation
 from caesura.core.errors import InvalidModel
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
-from caesura.formats.bundle.members import ZipMembers, errors_as_zip
 from caesura.formats.bundle.obj import read_obj
 from caesura.formats.bundle.ply import read_ply
 from caesura.formats.bundle.polygon_mesh import PolygonMesh
+from caesura.formats.bundle.zip_members import ZipMembers, errors_as_zip
 from caesura.formats.notices import Notices
 from caesura.formats.npz.read import inflate_member, verify_checksum, vertex_sequence_from_arrays
 from caesura.formats.vertex_sequence import require_finite

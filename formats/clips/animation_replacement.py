@@ -13,8 +13,8 @@ from caesura.formats.clips.animation_only import strip_meshes
 from caesura.formats.clips.binary_chunk import BinaryChunk, drop_unused_bytes
 from caesura.formats.clips.buffer_references import accessor_ranges, exclusive_accessors
 from caesura.formats.clips.self_contained_gltf import SelfContainedGltf
-from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.geometry.accessors import AccessorLayout, Accessors
+from caesura.formats.gltf.gltf_document import GltfDocument
 from caesura.formats.gltf.writer import COMPONENTS
 from caesura.formats.read import find_main_part
 

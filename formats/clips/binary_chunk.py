@@ -6,7 +6,7 @@ from typing import Any
 
 from caesura.formats.clips.buffer_references import Range, accessor_ranges, views_of_others, whole_view
 from caesura.formats.clips.self_contained_gltf import SelfContainedGltf, byte_ranges_of_view
-from caesura.formats.gltf.document import COMPRESSED
+from caesura.formats.gltf.gltf_document import COMPRESSED
 
 PIECE = 2**20
 

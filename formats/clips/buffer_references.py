@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from caesura.formats.gltf.document import IGNORABLE_EXTENSIONS
 from caesura.formats.gltf.geometry.accessors import COMPONENTS, WIDTHS
+from caesura.formats.gltf.gltf_document import IGNORABLE_EXTENSIONS
 
 Range = tuple[int, int]
 

@@ -4,8 +4,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from caesura.core.document import Interval, Segment, SegmentationDocument
 from caesura.core.errors import ParameterError
+from caesura.core.segmentation_document import Interval, Segment, SegmentationDocument
 from caesura.formats.clips.clip_names import number_repeated_names
 from caesura.formats.clips.clip_options import ClipOptions
 

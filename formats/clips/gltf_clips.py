@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator, Sequence
 
-from caesura.core.document import SegmentationDocument
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.clips.animation_replacement import AnimationReplacement
 from caesura.formats.clips.channel_cut import ChannelPart, cut_channel, extend_to_clip, hold_single_key
-from caesura.formats.clips.channels import ClipTracks, TakeChannel, take_channels
+from caesura.formats.clips.clip_channels import ClipTracks, TakeChannel, take_channels
 from caesura.formats.clips.clip_options import ClipOptions
 from caesura.formats.clips.clip_plan import Clip, plan_clips
 from caesura.formats.clips.clip_source import drop_large_extras

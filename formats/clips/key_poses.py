@@ -7,10 +7,10 @@ import numpy as np
 from jaxtyping import Float
 
 from caesura.core.animation import Animation
-from caesura.core.document import SegmentationDocument
 from caesura.core.errors import InvalidModel
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.clips.animation_replacement import AnimationReplacement
-from caesura.formats.clips.channels import ClipTracks, take_channels
+from caesura.formats.clips.clip_channels import ClipTracks, take_channels
 from caesura.formats.clips.clip_names import number_repeated_names
 from caesura.formats.clips.clip_plan import TakeRange
 from caesura.formats.clips.take_ranges import gltf_take_ranges

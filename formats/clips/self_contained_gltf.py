@@ -6,8 +6,8 @@ from typing import Any
 from urllib.parse import unquote
 
 from caesura.core.errors import BrokenContainer
-from caesura.formats.gltf.document import COMPRESSED, GltfDocument
 from caesura.formats.gltf.geometry.buffers import Buffers
+from caesura.formats.gltf.gltf_document import COMPRESSED, GltfDocument
 
 IMAGES = {
     "png": "image/png", "jpg": "image/jpeg", "jpeg": "image/jpeg", "webp": "image/webp", "ktx2": "image/ktx2",

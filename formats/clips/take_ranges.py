@@ -1,12 +1,12 @@
 """Which frames of a result are of which take: of the one that was cut, or of all of them, one after the other."""
 
-from caesura.core.document import SegmentationDocument
 from caesura.core.parameters import Parameters
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.clips.animation_replacement import AnimationReplacement
 from caesura.formats.clips.clip_plan import TakeRange
 from caesura.formats.frame_rate import count_frames
 from caesura.formats.gltf.animation.channels import read_channels
-from caesura.formats.gltf.animation.take import last_key_seconds
+from caesura.formats.gltf.animation.take_choice import last_key_seconds
 
 ALL = -1
 """The number of the take that is all takes."""

@@ -14,9 +14,9 @@ from caesura.formats.gltf.animation.channels import Channel
 from caesura.formats.gltf.animation.key_times import MOST_KEYS
 from caesura.formats.gltf.animation.sampled_take import SceneSize, join_all_takes, sample_one_take
 from caesura.formats.gltf.animation.sampling import KeyTracks, PoseSlots, read_tracks
-from caesura.formats.gltf.animation.take import find_chosen_takes
-from caesura.formats.gltf.document import GltfDocument
+from caesura.formats.gltf.animation.take_choice import find_chosen_takes
 from caesura.formats.gltf.geometry.accessors import Accessors
+from caesura.formats.gltf.gltf_document import GltfDocument
 from caesura.formats.gltf.posing.nodes import NodeGraph, read_nodes, scene_nodes
 from caesura.formats.gltf.posing.skeleton import read_skeleton
 from caesura.formats.gltf.posing.vertices import PosedVertices, sample_rest_pose

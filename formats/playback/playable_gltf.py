@@ -15,11 +15,11 @@ from jaxtyping import Float, Int, Shaped, UInt16
 from caesura.core.errors import InputError
 from caesura.core.limits import Limits
 from caesura.formats.gltf.animation.channels import WIDTHS, Channel, morph_targets
-from caesura.formats.gltf.animation.take import choose_animation
-from caesura.formats.gltf.document import GltfDocument
+from caesura.formats.gltf.animation.take_choice import choose_animation
 from caesura.formats.gltf.geometry.accessors import Accessors
 from caesura.formats.gltf.geometry.primitives import PrimitiveHeader, read_primitive, read_primitive_headers
 from caesura.formats.gltf.geometry.skin_weights import SkinWeights
+from caesura.formats.gltf.gltf_document import GltfDocument
 from caesura.formats.gltf.json_object import JsonObject
 from caesura.formats.gltf.posing.nodes import read_nodes, scene_nodes
 from caesura.formats.gltf.posing.skins import read_skin

@@ -1,6 +1,6 @@
 """Motions of the trunk that go on and on."""
 
-from caesura.samples.motions import Motion
+from caesura.samples.motion_curves import Motion
 
 TURN = Motion(
     "turn",

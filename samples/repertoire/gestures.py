@@ -1,6 +1,6 @@
 """Motions of the arms and the head, on the spot."""
 
-from caesura.samples.motions import Motion
+from caesura.samples.motion_curves import Motion
 
 WAVE = Motion(
     "wave",

@@ -7,7 +7,7 @@ from fastapi.openapi.utils import get_openapi
 from fastapi.routing import APIRoute
 from pydantic import BaseModel, ConfigDict, Field
 
-from caesura.core.document import SegmentationDocument
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.service.api_description.examples import EXAMPLES, PROBLEM
 from caesura.service.problems.status_table import MEDIA_TYPE
 from caesura.service.results.revision_request import RevisionRequest

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from caesura.core.control_characters import escape_control_characters
-from caesura.core.document import SegmentationDocument
 from caesura.core.errors import CaesuraError
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.service.commands.problems import exit_code
 
 BUG_MESSAGE = 1

@@ -6,9 +6,9 @@ from typing import IO, Any
 
 import httpx
 
-from caesura.core.document import SegmentationDocument
 from caesura.core.errors import CaesuraError
 from caesura.core.progress import Progress, ignore_progress
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.service.commands.problems import Unreachable
 
 CHUNK_BYTES = 2**18

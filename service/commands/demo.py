@@ -8,7 +8,7 @@ from itertools import zip_longest
 import click
 
 from caesura.core.control_characters import escape_control_characters
-from caesura.core.document import Segment, SegmentationDocument
+from caesura.core.segmentation_document import Segment, SegmentationDocument
 from caesura.service.commands.labelling import Labelling, compute_agreement
 from caesura.service.commands.problems import Command
 from caesura.service.commands.progress_bar import ProgressBar
@@ -44,7 +44,7 @@ def demo(context: click.Context, /, once: bool, port: int, url: str | None) -> N
 
 def _segment_samples(url: str) -> float:
     """Upload, wait, compare and print, for each figure; the lowest frame accuracy."""
-    from caesura.samples.figures import FIGURES, build_figure
+    from caesura.samples.sample_figures import FIGURES, build_figure
     from caesura.service.commands.client import Client
 
     accuracies = []

@@ -8,10 +8,10 @@ from typing import Any
 
 import click
 
-from caesura.core.document import SegmentationDocument
 from caesura.core.errors import CaesuraError
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.clips.clip_options import ClipOptions
-from caesura.service.commands.buffers import scratch_buffer
+from caesura.service.commands.mapped_files import scratch_buffer
 from caesura.service.results.elan import segments_eaf
 from caesura.service.results.text_formats import frames_csv, plot_svg, segments_csv, segments_vtt
 
@@ -28,14 +28,14 @@ def _text(suffix: str, written: Callable[[SegmentationDocument], str]) -> Write:
 
 
 def _clips(parts: Parts, found: SegmentationDocument, options: ClipOptions) -> tuple[str, Iterator[bytes]]:
-    from caesura.formats.clips.write import GLB, write_clips
+    from caesura.formats.clips.write_clips import GLB, write_clips
 
     written = write_clips(parts, found, options, scratch_buffer)
     return ".clips.glb" if written.media_type == GLB else ".clips.zip", written.pieces
 
 
 def _key_poses(parts: Parts, found: SegmentationDocument, _: ClipOptions) -> tuple[str, Iterator[bytes]]:
-    from caesura.formats.clips.write import write_key_poses
+    from caesura.formats.clips.write_clips import write_key_poses
 
     return ".keyframes.glb", write_key_poses(parts, found, scratch_buffer).pieces
 

@@ -6,17 +6,17 @@ from typing import Any
 
 import click
 
-from caesura.core.document import SegmentationDocument
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.service.commands import options
 from caesura.service.commands.batch import Batch
-from caesura.service.commands.buffers import map_file, scratch_buffer
-from caesura.service.commands.files import ExistingFiles, output_paths
+from caesura.service.commands.file_arguments import ExistingFiles, output_paths
+from caesura.service.commands.mapped_files import map_file, scratch_buffer
 from caesura.service.commands.outputs import Outputs, output_option_decorators
 from caesura.service.commands.problems import Command, print_problem
 from caesura.service.commands.progress_bar import ProgressBar
-from caesura.service.commands.table import print_table
+from caesura.service.commands.segment_table import print_table
 
 FOLDER = click.Path(file_okay=False, path_type=Path)
 

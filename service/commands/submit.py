@@ -9,7 +9,7 @@ from caesura.core.parameters import Parameters
 from caesura.service.commands import options
 from caesura.service.commands.problems import Command
 from caesura.service.commands.progress_bar import ProgressBar
-from caesura.service.commands.table import print_table
+from caesura.service.commands.segment_table import print_table
 
 DEFAULT_URL = "http://127.0.0.1:8000"
 

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from contextlib import closing
 
 from caesura.service.http.address import address_of_socket, is_answering, open_listening_socket
-from caesura.service.process.child import ChildProcess
+from caesura.service.process.child_process import ChildProcess
 from caesura.service.settings import ServiceSettings
 from caesura.worker.embedded_redis.server import EmbeddedRedis
 from caesura.worker.private_folder import make_private

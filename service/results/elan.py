@@ -7,8 +7,8 @@ import itertools
 from collections.abc import Iterable, Iterator
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from caesura.core.document import SegmentationDocument
 from caesura.core.plot.svg import FORBIDDEN_CHARACTERS
+from caesura.core.segmentation_document import SegmentationDocument
 
 SCHEMA = "http://www.mpi.nl/tools/elan/EAFv3.0.xsd"
 INSTANCE = "http://www.w3.org/2001/XMLSchema-instance"

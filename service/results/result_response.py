@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from anyio import to_thread
 from fastapi import Request, Response
 
-from caesura.core.document import SegmentationDocument
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.service.backend import Backend
-from caesura.service.documents import StatusDocument
 from caesura.service.http.prefer_header import preferred_wait_seconds
 from caesura.service.problems.status_table import Refusal, problem_response
+from caesura.service.response_documents import StatusDocument
 from caesura.service.results import text_formats
 from caesura.service.results.byte_ranges import StoredFile, cache_headers, is_not_modified, stored_response
 from caesura.service.results.elan import segments_eaf
@@ -19,7 +19,7 @@ from caesura.service.results.result_formats import ResultFormat
 from caesura.service.results.revision_request import revised_document, revision_number
 from caesura.service.segmentations.status_response import ASK_AGAIN, preference_applied, problem_of, status_response
 from caesura.worker.queue.auxiliary_jobs import submit_export
-from caesura.worker.records.schema import ExportRecord, SegmentationRecord
+from caesura.worker.records.record_types import ExportRecord, SegmentationRecord
 from caesura.worker.retention.deletion import delete_result_file
 from caesura.worker.store.blobs import BlobMissing
 

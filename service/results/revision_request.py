@@ -7,14 +7,14 @@ from anyio import to_thread
 from fastapi import Query, Request
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from caesura.core.document import SegmentationDocument
 from caesura.core.errors import ParameterError
 from caesura.core.revision import Edit, apply_revision
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.service.backend import Backend
 from caesura.service.http.json_body import read_json_body
 from caesura.service.problems.status_table import Refusal
+from caesura.worker.records.record_types import SegmentationRecord
 from caesura.worker.records.revisions import MOST_REVISIONS, Revisions
-from caesura.worker.records.schema import SegmentationRecord
 
 LONGEST_NOTE = 500
 LONGEST_POINTER = 200

@@ -4,9 +4,9 @@ import csv
 import io
 from collections.abc import Iterable, Iterator
 
-from caesura.core.document import Segment, SegmentationDocument
 from caesura.core.plot.layout import lay_out_picture
 from caesura.core.plot.svg import render_svg
+from caesura.core.segmentation_document import Segment, SegmentationDocument
 
 SEGMENT_COLUMNS = ("name", "motion", "start", "end", "start_seconds", "end_seconds", "confidence", "loop", "discard")
 FRAME_COLUMNS = ("frame", "seconds", "motion", "name", "energy", "key_frame")

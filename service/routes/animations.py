@@ -8,14 +8,14 @@ from fastapi import APIRouter, Query, Request, Response
 from caesura.service.api_description.descriptions import FILE, FILE_BODY
 from caesura.service.auth.request_owner import Owner
 from caesura.service.backend import Backend, BackendDependency
-from caesura.service.documents import AnimationDocument, AnimationPage, AnimationSummary
 from caesura.service.http.paging import Cursor, Limit, decode_cursor, encode_cursor
 from caesura.service.problems.status_table import Refusal
+from caesura.service.response_documents import AnimationDocument, AnimationPage, AnimationSummary
 from caesura.service.results.byte_ranges import StoredFile, stored_response
 from caesura.service.segmentations.status_response import status_response
 from caesura.service.uploads.registration import register_upload
 from caesura.service.uploads.upload_body import receive_upload
-from caesura.worker.records.schema import AnimationRecord
+from caesura.worker.records.record_types import AnimationRecord
 from caesura.worker.retention.deletion import delete_animation
 
 MEDIA_TYPES = {

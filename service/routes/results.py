@@ -8,14 +8,14 @@ from fastapi import APIRouter, Query, Request, Response
 from caesura.service.api_description.descriptions import FILE, PLOT, RESULT
 from caesura.service.auth.request_owner import Owner
 from caesura.service.backend import Backend, BackendDependency
-from caesura.service.documents import ViewerDocument
 from caesura.service.problems.status_table import Refusal
+from caesura.service.response_documents import ViewerDocument
 from caesura.service.results.byte_ranges import StoredFile, stored_response
 from caesura.service.results.result_formats import format_by_accept, format_by_suffix, plot_format_by_suffix
 from caesura.service.results.result_response import RequestedResult, result_response
 from caesura.service.results.revision_request import Revision
 from caesura.service.segmentations.status_response import status_response
-from caesura.worker.records.schema import ViewerRecord
+from caesura.worker.records.record_types import ViewerRecord
 
 Table = Annotated[Literal["segments", "frames"], Query(description="csv: a row per segment, or per frame")]
 

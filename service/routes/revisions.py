@@ -7,7 +7,7 @@ from caesura.core.revision import check_edits
 from caesura.service.api_description.descriptions import REVISED, REVISION_BODY
 from caesura.service.auth.request_owner import Owner
 from caesura.service.backend import Backend, BackendDependency
-from caesura.service.documents import RevisionDocument, RevisionEntry, RevisionList
+from caesura.service.response_documents import RevisionDocument, RevisionEntry, RevisionList
 from caesura.service.results.byte_ranges import cache_headers, is_not_modified
 from caesura.service.results.result_response import unfinished_response
 from caesura.service.results.revision_request import (
@@ -18,8 +18,8 @@ from caesura.service.results.revision_request import (
     revision_number,
 )
 from caesura.service.segmentations.status_response import status_response
+from caesura.worker.records.record_types import RevisionRecord, SegmentationRecord
 from caesura.worker.records.revisions import Revisions, add_revision
-from caesura.worker.records.schema import RevisionRecord, SegmentationRecord
 
 router = APIRouter(prefix="/v1/segmentations/{identifier}/revisions", tags=["revisions"])
 

@@ -12,18 +12,18 @@ from caesura.service.api_description.descriptions import EVENTS, SUBMISSION, SUB
 from caesura.service.auth.authentication import is_still_admitted
 from caesura.service.auth.request_owner import Owner
 from caesura.service.backend import BackendDependency
-from caesura.service.documents import SegmentationPage, StatusDocument
 from caesura.service.http.json_body import is_json
 from caesura.service.http.paging import Cursor, Limit, decode_cursor, encode_cursor
 from caesura.service.http.prefer_header import preferred_wait_seconds
 from caesura.service.http.stream_limit import stream_client
+from caesura.service.response_documents import SegmentationPage, StatusDocument
 from caesura.service.segmentations.event_stream import counted_stream, event_id, status_events
 from caesura.service.segmentations.segmentation_request import request_from_json, request_from_query
 from caesura.service.segmentations.status_response import preference_applied, status_response, submission_response
 from caesura.service.segmentations.submission import submit_segmentation
 from caesura.service.uploads.registration import register_upload
 from caesura.service.uploads.upload_body import receive_upload
-from caesura.worker.records.schema import SegmentationRecord
+from caesura.worker.records.record_types import SegmentationRecord
 from caesura.worker.retention.deletion import delete_segmentation
 
 router = APIRouter(prefix="/v1/segmentations", tags=["segmentations"])

@@ -6,8 +6,8 @@ from contextlib import AbstractContextManager, aclosing
 from anyio import current_time
 
 from caesura.service.backend import Backend
-from caesura.service.documents import StatusDocument
-from caesura.worker.records.schema import SegmentationRecord
+from caesura.service.response_documents import StatusDocument
+from caesura.worker.records.record_types import SegmentationRecord
 
 QUIET_SECONDS = 15.0
 

@@ -6,10 +6,10 @@ from fastapi import Request, Response
 from pydantic import BaseModel
 
 from caesura.service.backend import Backend
-from caesura.service.documents import StatusDocument
 from caesura.service.http.prefer_header import preferred_wait_seconds
 from caesura.service.problems.status_table import problem_response
-from caesura.worker.records.schema import SegmentationRecord
+from caesura.service.response_documents import StatusDocument
+from caesura.worker.records.record_types import SegmentationRecord
 
 ASK_AGAIN = {"Retry-After": "1"}
 

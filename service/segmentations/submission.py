@@ -9,9 +9,9 @@ from caesura.formats.take_selection import select_take
 from caesura.service.backend import Backend
 from caesura.service.problems.status_table import Refusal
 from caesura.worker import logs
-from caesura.worker.alternatives import restore_alternative
 from caesura.worker.records import content_ids
-from caesura.worker.records.schema import AnimationRecord, SegmentationRecord, TakeSummary
+from caesura.worker.records.record_types import AnimationRecord, SegmentationRecord, TakeSummary
+from caesura.worker.stored_alternatives import restore_alternative
 
 
 def resolve_parameters(parameters: Parameters, takes: Sequence[TakeSummary]) -> Parameters:

@@ -6,14 +6,14 @@ from collections.abc import Iterable
 from redis.exceptions import ResponseError
 
 from caesura.core.errors import UnsupportedMedia
+from caesura.formats.file_header import Header, read_header
 from caesura.formats.file_type import SIGNATURE_BYTES, detect_file_type
-from caesura.formats.header import Header, read_header
 from caesura.service.backend import Backend
 from caesura.service.http.file_name import plain_name
 from caesura.service.problems.status_table import Refusal
 from caesura.service.uploads.spool import Part
-from caesura.worker.records import content_ids, schema
-from caesura.worker.records.schema import AnimationRecord, TakeSummary
+from caesura.worker.records import content_ids, record_types
+from caesura.worker.records.record_types import AnimationRecord, TakeSummary
 
 
 def register_upload(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tuple[AnimationRecord, bool]:
@@ -41,7 +41,7 @@ def register_upload(backend: Backend, owner: str, parts: tuple[Part, ...], name:
         name=plain_name(name or main.name) or f"animation.{header.format}",
         format=header.format,
         parts=tuple(
-            schema.Part(name=part.name, key=backend.blobs.adopt(part.path), bytes=part.bytes)
+            record_types.Part(name=part.name, key=backend.blobs.adopt(part.path), bytes=part.bytes)
             for part in [main, *(other for other in parts if other is not main)]
         ),
         take_count=len(takes),

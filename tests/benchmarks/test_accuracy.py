@@ -8,7 +8,7 @@ import pytest
 
 from benchmarks.sequences import truth_of
 from caesura.core.analysis import Analysis
-from caesura.core.document import Source
+from caesura.core.segmentation_document import Source
 
 DOCUMENT = {
     "fps": 30,

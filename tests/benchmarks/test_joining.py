@@ -7,7 +7,7 @@ from benchmarks.creatures import creature
 from benchmarks.joining import joined
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse
-from caesura.samples.motions import Motion
+from caesura.samples.motion_curves import Motion
 
 
 def test_a_creature_is_the_same_at_every_call():

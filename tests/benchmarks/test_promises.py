@@ -12,8 +12,8 @@ from benchmarks.edges import cases, outcome
 from benchmarks.peers import NotInstalled, peers
 from benchmarks.sequences import Known
 from caesura.core.analysis import Analysis, Features
-from caesura.core.document import Source
 from caesura.core.methods.table import METHODS
+from caesura.core.segmentation_document import Source
 
 
 @pytest.mark.parametrize(

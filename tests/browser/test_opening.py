@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from caesura.core.limits import Limits
-from caesura.formats.header import read_header
+from caesura.formats.file_header import read_header
 from tests.browser.journeys import opened
 
 pytestmark = pytest.mark.timeout(240)

@@ -11,7 +11,7 @@ from caesura import Animation, Segmentation, open_animation, segment
 from caesura.core import errors
 from caesura.core.errors import InvalidModel, ParameterError
 from caesura.core.parameters import Parameters
-from caesura.samples.figures import build_figure
+from caesura.samples.sample_figures import build_figure
 from tests.animations import performing_bar
 from tests.installation import take_npz
 
@@ -35,7 +35,9 @@ def program(text):
 def test_the_package_alone_loads_nothing():
     """`import caesura` is light, and so are the names that the web process needs; `segment` brings the numerics."""
     heavy = "print('numpy' in sys.modules)"
-    assert program(f"import sys, caesura, caesura.core.parameters, caesura.core.document; {heavy}") == "False"
+    assert (
+        program(f"import sys, caesura, caesura.core.parameters, caesura.core.segmentation_document; {heavy}") == "False"
+    )
     assert program(f"import sys, caesura; caesura.Parameters; {heavy}") == "False"
     assert program(f"import sys; from caesura import segment; {heavy}") == "True"
 

@@ -1,6 +1,6 @@
 """What a slider shows that goes over K."""
 
-from caesura.core.alternatives import cut_into_other_motion_counts
+from caesura.core.other_motion_counts import cut_into_other_motion_counts
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse, cut
 from tests.animations import performing_bar

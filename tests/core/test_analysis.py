@@ -3,7 +3,7 @@
 import numpy as np
 
 from caesura.core.analysis import Analysis, Features
-from caesura.core.document import Notice, Source
+from caesura.core.segmentation_document import Notice, Source
 
 
 def test_an_analysis_comes_back_from_its_bytes():

@@ -5,9 +5,9 @@ from itertools import pairwise
 from hypothesis import given
 from hypothesis import strategies as st
 
-from caesura.core.document import Interval, KeyFrame, Segment, SegmentationDocument, Source
 from caesura.core.errors import ParameterError
 from caesura.core.revision import Edit, apply_revision, check_edits
+from caesura.core.segmentation_document import Interval, KeyFrame, Segment, SegmentationDocument, Source
 
 FRAMES = 60
 

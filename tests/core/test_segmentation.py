@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pytest
 
-from caesura.core.document import Source, motion_name
 from caesura.core.segmentation import Segmentation, number_by_appearance
+from caesura.core.segmentation_document import Source, motion_name
 
 
 @pytest.fixture

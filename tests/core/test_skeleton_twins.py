@@ -7,7 +7,7 @@ import pytest
 
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import segment
-from caesura.samples.figures import FIGURES, build_figure
+from caesura.samples.sample_figures import FIGURES, build_figure
 from tests.formats.opening import opened
 from tests.glb import chunks
 

@@ -8,7 +8,7 @@ import pytest
 from caesura.core.errors import BrokenContainer, CaesuraError, InvalidModel, LimitExceeded
 from caesura.core.limits import Limits
 from caesura.formats.bvh.hierarchy import read_bvh_header
-from caesura.formats.header import HeaderTake, read_header
+from caesura.formats.file_header import HeaderTake, read_header
 from tests.formats.opening import codes, opened
 
 ARM = """HIERARCHY

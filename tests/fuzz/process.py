@@ -106,7 +106,7 @@ def _instrument() -> None:
     import caesura.formats.kernels.posing
 
     with atheris.instrument_imports(include=["caesura.formats"]):
-        import caesura.formats.header
+        import caesura.formats.file_header
         import caesura.formats.read  # noqa: F401
 
 

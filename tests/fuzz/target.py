@@ -7,7 +7,7 @@ import zlib
 from caesura.core.errors import CaesuraError
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
-from caesura.formats.header import read_header
+from caesura.formats.file_header import read_header
 from caesura.formats.read import list_takes, read_animation
 from tests.fuzz.bodies import attempt_bodies
 from tests.fuzz.parts import parted

@@ -11,7 +11,7 @@ import pytest
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.records import redis_keys
 from caesura.worker.records.connection import connect
-from caesura.worker.retention.retention import sweep
+from caesura.worker.retention.sweep import sweep
 from caesura.worker.store.blobs import Blobs
 from tests.glb import bending_strip
 

@@ -5,7 +5,7 @@ from collections import Counter
 from itertools import pairwise
 from xml.etree import ElementTree
 
-from caesura.core.document import Interval, KeyFrame, Segment
+from caesura.core.segmentation_document import Interval, KeyFrame, Segment
 from caesura.service.results.elan import segments_eaf
 from tests.service.test_exports import document
 

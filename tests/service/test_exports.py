@@ -1,6 +1,6 @@
 """Text forms: times as players and spreadsheets read them, names that cannot be taken for anything else."""
 
-from caesura.core.document import Segment, SegmentationDocument, Source
+from caesura.core.segmentation_document import Segment, SegmentationDocument, Source
 from caesura.service.results.text_formats import segments_csv, segments_vtt
 
 

@@ -2,10 +2,10 @@
 
 import pytest
 
-from caesura.core.document import SegmentationDocument
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.service.api_description.openapi import Problem
 from caesura.service.app import create_app
-from caesura.service.documents import AnimationDocument, StatusDocument
+from caesura.service.response_documents import AnimationDocument, StatusDocument
 from caesura.service.settings import ServiceSettings
 
 MODELS = {"AnimationDocument": AnimationDocument, "StatusDocument": StatusDocument}

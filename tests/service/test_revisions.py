@@ -14,8 +14,8 @@ from caesura.worker.queue.jobs import Jobs
 from caesura.worker.records import redis_keys
 from caesura.worker.records.connection import connect
 from caesura.worker.records.revisions import MOST_REVISIONS
-from caesura.worker.result_files import MOST_EXPORTS
-from caesura.worker.retention.retention import sweep
+from caesura.worker.result_file_writers import MOST_EXPORTS
+from caesura.worker.retention.sweep import sweep
 from caesura.worker.store.blobs import Blobs
 from tests.glb import bending_strip
 

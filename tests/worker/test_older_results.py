@@ -2,7 +2,7 @@
 
 import json
 
-from caesura.core.document import SegmentationDocument
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.worker.records import redis_keys
 
 RECORD = {

@@ -25,7 +25,7 @@ from caesura.worker.queue.job_problems import KILLED, OUT_OF_MEMORY, OUT_OF_TIME
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.queue.queues import TASKS, JobTimer, TaskJob, rq_queue
 from caesura.worker.records.connection import tolerate_full_disk
-from caesura.worker.records.schema import ExportRecord
+from caesura.worker.records.record_types import ExportRecord
 
 MONITOR_SECONDS = 5  # between signs of life while a job runs
 MAINTENANCE_SECONDS = 60

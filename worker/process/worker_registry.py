@@ -16,7 +16,7 @@ from rq.serializers import JSONSerializer
 from caesura.worker.queue.queues import QUEUES, rq_queue
 from caesura.worker.records import redis_keys
 from caesura.worker.records.connection import decode_names
-from caesura.worker.records.schema import Queue
+from caesura.worker.records.record_types import Queue
 
 IDLE_SECONDS = 30  # a worker without a job gives a sign of life twice in so long
 REMOTE_SILENCE_SECONDS = 10**9

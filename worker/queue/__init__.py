@@ -2,10 +2,10 @@
 
 jobs               segmentations and their states
 queues             RQ's queues
-auxiliary_jobs     jobs that are no segmentation
+auxiliary_jobs     jobs other than segmentations
 attempt            one attempt at one segmentation
-progress_reporter  how far an attempt is
-orphaned_jobs      live segmentations that nobody works on, found and tried again
-retry_delays       pauses before another attempt
-job_problems       what can go wrong that is not the file's fault
+progress_reporter  progress of an attempt, written in the background
+orphaned_jobs      live segmentations without a worker, found and tried again
+retry_delays       delays before another attempt
+job_problems       problems that are not caused by the file
 """

@@ -19,7 +19,7 @@ from caesura.worker.queue.jobs import Jobs
 from caesura.worker.queue.progress_reporter import ProgressReporter
 from caesura.worker.queue.queues import TimeLimit
 from caesura.worker.records import counters
-from caesura.worker.records.schema import SegmentationRecord
+from caesura.worker.records.record_types import SegmentationRecord
 from caesura.worker.store.blobs import BlobMissing
 
 log = logging.getLogger(__name__)

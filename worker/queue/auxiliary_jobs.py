@@ -6,7 +6,7 @@ from redis import WatchError
 
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.records import content_ids, redis_keys
-from caesura.worker.records.schema import ExportRecord
+from caesura.worker.records.record_types import ExportRecord
 
 SWEEP_SECONDS = 3600
 PROBLEM_SECONDS = 10.0

@@ -25,7 +25,7 @@ from caesura.worker.queue.queues import Queues
 from caesura.worker.queue.retry_delays import retry_delay_seconds
 from caesura.worker.records import Records, content_ids, counters, redis_keys
 from caesura.worker.records.connection import connect
-from caesura.worker.records.schema import Queue, SegmentationRecord
+from caesura.worker.records.record_types import Queue, SegmentationRecord
 from caesura.worker.settings import WorkerSettings
 
 log = logging.getLogger(__name__)

@@ -5,7 +5,7 @@ import time
 from caesura.worker.queue.job_problems import LOST
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.queue.retry_delays import LONGEST_PAUSE_SECONDS
-from caesura.worker.records.schema import SegmentationRecord
+from caesura.worker.records.record_types import SegmentationRecord
 
 
 class OrphanedJobWatch:

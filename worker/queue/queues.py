@@ -16,7 +16,7 @@ from rq.serializers import JSONSerializer
 from rq.timeouts import JobTimeoutException, UnixSignalDeathPenalty
 
 from caesura.core.errors import CaesuraError
-from caesura.worker.records.schema import Queue, SegmentationRecord
+from caesura.worker.records.record_types import Queue, SegmentationRecord
 
 log = logging.getLogger(__name__)
 

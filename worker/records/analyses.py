@@ -4,7 +4,7 @@ import redis
 
 from caesura.worker.records import redis_keys
 from caesura.worker.records.connection import decode_names
-from caesura.worker.records.schema import AnalysisRecord
+from caesura.worker.records.record_types import AnalysisRecord
 
 
 class Analyses:

@@ -6,7 +6,7 @@ import redis
 
 from caesura.worker.records import redis_keys
 from caesura.worker.records.connection import decode_names
-from caesura.worker.records.schema import TAKES, AnimationRecord, TakeSummary
+from caesura.worker.records.record_types import TAKES, AnimationRecord, TakeSummary
 
 
 class Animations:

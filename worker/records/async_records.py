@@ -7,7 +7,7 @@ from redis.asyncio import BlockingConnectionPool, Redis
 
 from caesura.worker.records import redis_keys
 from caesura.worker.records.connection import decode_names
-from caesura.worker.records.schema import TAKES, AnimationRecord, ExportRecord, SegmentationRecord, TakeSummary
+from caesura.worker.records.record_types import TAKES, AnimationRecord, ExportRecord, SegmentationRecord, TakeSummary
 from caesura.worker.records.subscription import ChannelListener, Messages
 
 REREAD_SECONDS = 3.0  # a message may be missed where a connection breaks

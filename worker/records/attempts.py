@@ -9,7 +9,7 @@ import redis
 from redis.client import Pipeline
 
 from caesura.worker.records import redis_keys
-from caesura.worker.records.schema import SegmentationRecord
+from caesura.worker.records.record_types import SegmentationRecord
 from caesura.worker.records.segmentations import Change, Segmentations
 
 LEASE_SECONDS = 20  # an attempt whose worker gave no sign for so long is lost

@@ -12,7 +12,7 @@ from redis import Redis
 from redis.client import Pipeline
 
 from caesura.worker.records import redis_keys
-from caesura.worker.records.schema import SegmentationRecord
+from caesura.worker.records.record_types import SegmentationRecord
 
 BUCKETS = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, math.inf)
 """Upper ends of the buckets that durations are counted in, in seconds."""

@@ -2,7 +2,7 @@
 
 | layout | what changed |
 |---|---|
-| 1 | the first: keys as in `caesura.worker.records.redis_keys`, records as in `caesura.worker.records.schema` |
+| 1 | the first: keys as in `caesura.worker.records.redis_keys`, records as in `caesura.worker.records.record_types` |
 
 New fields of records with a default, and new keys, are no new layout: an older service ignores them. A layout is for
 what an older service would read wrongly. The first service of a new version raises the number.

@@ -24,7 +24,7 @@
 | caesura:exports:ID | set | the forms that were ever asked for |
 | caesura:worker:NAME | string, expires | the host of a warm worker that lives; RQ's sets say which queues it serves |
 | caesura:swept | string, expires | somebody looked lately for what is kept too long |
-| caesura:clock | hash | the time of the last look, and since when the clock has gone evenly; `caesura.worker.clock` |
+| caesura:clock | hash | when the clock was last checked, and since when it is steady; `worker/clock_check.py` |
 | caesura:deleted | string | something was deleted since Redis was last asked to rewrite its append-only file |
 | caesura:tally | hash | what workers have counted; `caesura.worker.records.counters` |
 | caesura:doubted | hash | keys of blobs that no record pointed to when it was looked last, each with since when |

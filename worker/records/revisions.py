@@ -9,7 +9,7 @@ from redis.client import Pipeline
 from caesura.core.revision import Edit
 from caesura.worker.records import Records, redis_keys
 from caesura.worker.records.async_records import AsyncRecords
-from caesura.worker.records.schema import RevisionRecord, SegmentationRecord
+from caesura.worker.records.record_types import RevisionRecord, SegmentationRecord
 
 MOST_REVISIONS = 1000
 

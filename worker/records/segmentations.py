@@ -9,7 +9,7 @@ from redis.client import Pipeline
 from caesura.core.errors import CaesuraError
 from caesura.worker.records import counters, redis_keys
 from caesura.worker.records.connection import decode_names
-from caesura.worker.records.schema import SegmentationRecord
+from caesura.worker.records.record_types import SegmentationRecord
 
 Change = Callable[[SegmentationRecord], SegmentationRecord | None]
 AlsoWrite = Callable[[Pipeline, SegmentationRecord], None]

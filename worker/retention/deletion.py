@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.records import Records
 from caesura.worker.records.connection import await_writes
-from caesura.worker.records.schema import AnimationRecord
+from caesura.worker.records.record_types import AnimationRecord
 from caesura.worker.store.blobs import Blobs
 
 RESULT_FILES_WITH_UPLOAD = ("clips", "keyframes")

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-from caesura.worker.records.schema import Part
+from caesura.worker.records.record_types import Part
 from caesura.worker.store.blobs import Blobs
 from caesura.worker.store.disk_space import check_disk_space
 

@@ -10,7 +10,7 @@ from caesura.core.methods.alignment.initial_segmentation import InitialSegmentat
 from caesura.core.methods.alignment.sample_rate import frames_per_sample, seconds_to_samples
 from caesura.core.methods.alignment.segments import SegmentLengths
 from caesura.core.methods.alignment.temporal_reduction import reduce_frames
-from caesura.core.methods.comparison import cut_by_compared_method
+from caesura.core.methods.compared_methods import cut_by_compared_method
 from caesura.core.parameters import Parameters
 from caesura.core.segmentation import Cut
 

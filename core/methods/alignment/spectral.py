@@ -9,7 +9,7 @@ from caesura.core.methods.alignment.sample_rate import frames_per_sample, second
 from caesura.core.methods.alignment.short_runs import remove_short_runs
 from caesura.core.methods.alignment.spectral_clustering import cluster_spectrally
 from caesura.core.methods.alignment.temporal_reduction import reduce_frames
-from caesura.core.methods.comparison import cut_by_compared_method
+from caesura.core.methods.compared_methods import cut_by_compared_method
 from caesura.core.parameters import Parameters
 from caesura.core.segmentation import Cut
 

@@ -7,7 +7,7 @@ from jaxtyping import Float, Int
 from sklearn.cluster import KMeans
 from sklearn.metrics import silhouette_score
 
-from caesura.core.document import Score
+from caesura.core.segmentation_document import Score
 from caesura.core.single_threaded_blas import single_threaded_blas
 
 STARTS = 20

@@ -3,7 +3,6 @@
 import numpy as np
 
 from caesura.core.analysis import Analysis
-from caesura.core.document import Notice, Score
 from caesura.core.energy.key_frames import extract_key_frames
 from caesura.core.methods.joint_entropy.boundaries import label_frames_between_keys
 from caesura.core.methods.joint_entropy.clustering import (
@@ -14,6 +13,7 @@ from caesura.core.methods.joint_entropy.clustering import (
 )
 from caesura.core.parameters import Parameters
 from caesura.core.segmentation import Cut
+from caesura.core.segmentation_document import Notice, Score
 
 
 def joint_entropy(analysis: Analysis, parameters: Parameters) -> Cut:

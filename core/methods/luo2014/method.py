@@ -4,7 +4,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from caesura.core.analysis import Analysis
-from caesura.core.methods.comparison import cut_by_compared_method
+from caesura.core.methods.compared_methods import cut_by_compared_method
 from caesura.core.methods.luo2014.partition import partition_frames
 from caesura.core.methods.luo2014.segment_grouping import group_segments
 from caesura.core.parameters import Parameters

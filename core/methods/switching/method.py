@@ -3,7 +3,6 @@
 import numpy as np
 
 from caesura.core.analysis import Analysis
-from caesura.core.document import Notice, Score
 from caesura.core.energy.key_frames import extract_key_frames
 from caesura.core.methods.switching.consensus import WEIGHTINGS, find_consensus
 from caesura.core.methods.switching.cut_confidence import cut_confidence
@@ -14,6 +13,7 @@ from caesura.core.methods.switching.short_segments import remove_short_segments
 from caesura.core.methods.switching.switching_k_means import SwitchingClusters, run_switching_k_means
 from caesura.core.parameters import Auto, Parameters
 from caesura.core.segmentation import Cut
+from caesura.core.segmentation_document import Notice, Score
 from caesura.core.single_threaded_blas import single_threaded_blas
 
 

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.geometry.accessors import AccessorLayout, Accessors
+from caesura.formats.gltf.gltf_document import GltfDocument
 from caesura.formats.gltf.json_object import JsonObject
 
 WIDTHS = {"translation": 3, "rotation": 4, "scale": 3}

@@ -11,7 +11,7 @@ from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
 from caesura.formats.frame_rate import count_frames
 from caesura.formats.gltf.animation.sampling import KeyTracks
-from caesura.formats.gltf.animation.take import ChosenTake
+from caesura.formats.gltf.animation.take_choice import ChosenTake
 from caesura.formats.gltf.posing.vertices import PosedVertices
 from caesura.formats.joined_takes import JoinedTakes
 from caesura.formats.notices import Notices

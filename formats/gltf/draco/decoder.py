@@ -9,9 +9,9 @@ import numpy as np
 from jaxtyping import Shaped
 
 from caesura.core.errors import InvalidModel
-from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.draco.header import read_draco_counts
 from caesura.formats.gltf.geometry.accessors import AccessorLayout, Accessors
+from caesura.formats.gltf.gltf_document import GltfDocument
 from caesura.formats.gltf.json_object import JsonObject
 
 TRIANGLES, STRIP = 4, 5

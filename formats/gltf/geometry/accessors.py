@@ -7,8 +7,8 @@ from functools import cache
 import numpy as np
 from jaxtyping import Float, Int, Shaped
 
-from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.geometry.buffers import Buffers
+from caesura.formats.gltf.gltf_document import GltfDocument
 from caesura.formats.gltf.json_object import JsonObject
 
 COMPONENTS: dict[int, str] = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}

@@ -5,7 +5,7 @@ import binascii
 from urllib.parse import unquote
 
 from caesura.core.errors import InvalidModel
-from caesura.formats.gltf.document import COMPRESSED, GltfDocument
+from caesura.formats.gltf.gltf_document import COMPRESSED, GltfDocument
 from caesura.formats.gltf.json_object import JsonObject
 from caesura.formats.gltf.meshopt.view import decode_view, decoded_size
 

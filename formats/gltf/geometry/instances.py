@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.geometry.accessors import AccessorLayout, Accessors
+from caesura.formats.gltf.gltf_document import GltfDocument
 from caesura.formats.gltf.json_object import JsonObject
 from caesura.formats.gltf.posing.nodes import unit_rotations
 from caesura.formats.gltf.posing.skins import IDENTITY

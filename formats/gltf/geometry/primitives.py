@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.draco.decoder import replace_draco_attributes
 from caesura.formats.gltf.geometry.accessors import AccessorLayout, Accessors
 from caesura.formats.gltf.geometry.skin_weights import SkinWeights, read_skin_weights
+from caesura.formats.gltf.gltf_document import GltfDocument
 from caesura.formats.gltf.json_object import JsonObject
 
 TRIANGLES, STRIP, FAN = 4, 5, 6

@@ -7,7 +7,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from caesura.core.errors import InvalidModel
-from caesura.formats.gltf.document import GltfDocument
+from caesura.formats.gltf.gltf_document import GltfDocument
 from caesura.formats.gltf.json_object import JsonObject
 
 T, R, S = slice(0, 3), slice(3, 7), slice(7, 10)

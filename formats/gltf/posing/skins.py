@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.geometry.accessors import Accessors
+from caesura.formats.gltf.gltf_document import GltfDocument
 
 IDENTITY = np.eye(4)[:3].reshape(-1)
 

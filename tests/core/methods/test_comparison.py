@@ -5,10 +5,10 @@ import pytest
 
 from caesura.core.agreement import frame_accuracy
 from caesura.core.analysis import Analysis, Features
-from caesura.core.document import Source
 from caesura.core.errors import ParameterError
 from caesura.core.methods.table import METHODS
 from caesura.core.parameters import Parameters
+from caesura.core.segmentation_document import Source
 
 RATE = 30.0
 NAMES = sorted(name for name, method in METHODS.items() if method.needs_motions)

@@ -8,10 +8,10 @@ from threadpoolctl import threadpool_limits
 
 from caesura.core.agreement import boundary_scores, cut_frames, frame_accuracy
 from caesura.core.analysis import Analysis, Features
-from caesura.core.document import Source
 from caesura.core.methods.switching.method import switching
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import segment
+from caesura.core.segmentation_document import Source
 from tests.animations import animation, bar, turned
 
 RATE = 30.0

@@ -10,12 +10,12 @@ from xml.etree import ElementTree
 import pytest
 from PIL import Image
 
-from caesura.core.document import KeyFrame, Segment, SegmentationDocument, Source, motion_name
 from caesura.core.errors import ParameterError
 from caesura.core.plot.layout import BAR, COLOURS, CURVE, DISCARDED, GAP, TOP, lay_out_picture
 from caesura.core.plot.picture import Box, Dot, Label, Line
 from caesura.core.plot.png import SCALE, render_png
 from caesura.core.plot.svg import render_svg
+from caesura.core.segmentation_document import KeyFrame, Segment, SegmentationDocument, Source, motion_name
 
 
 def document(cuts=(60, 100), frames=200, names=(), energy=None, discard=(), start=0.0):

@@ -14,7 +14,7 @@ from caesura.core.repetition.repetition_ends import find_repetition_ends
 from caesura.core.repetition.repetitions import RepetitionFinder, find_repetitions
 from caesura.core.repetition.segment_features import segment_features
 from caesura.formats.read import read_animation
-from caesura.samples.figures import FIGURES, build_figure
+from caesura.samples.sample_figures import FIGURES, build_figure
 
 RATE = 30.0
 

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from caesura.core.animation import Animation
-from caesura.core.document import KeyFrame, Segment, SegmentationDocument, Source, motion_name
 from caesura.core.parameters import Parameters
+from caesura.core.segmentation_document import KeyFrame, Segment, SegmentationDocument, Source, motion_name
 from caesura.formats.clips.clip_options import ClipOptions
-from caesura.formats.clips.write import write_clips, write_key_poses
+from caesura.formats.clips.write_clips import write_clips, write_key_poses
 from tests.formats.opening import opened
 
 IDENTIFIER = "x3t6kq2v5hn7ma4zr2wye6jd4p"

@@ -7,8 +7,8 @@ import zipfile
 import numpy as np
 import pytest
 
-from caesura.core.document import Interval
 from caesura.core.errors import ParameterError
+from caesura.core.segmentation_document import Interval
 from tests.formats.clips.making import chunks_of, clips_of, cut_at, names_of, worst_miss
 from tests.formats.opening import opened
 from tests.glb import Glb, bending_strip, moving_square, square

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from caesura.core.document import Source
+from caesura.core.segmentation_document import Source
 from tests.formats.clips.making import chunks_of, clips_of, cut_at, key_poses_of, names_of
 from tests.formats.opening import opened
 from tests.glb import square

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from caesura.core.errors import CaesuraError, InvalidModel
 from caesura.core.limits import Limits
-from caesura.formats.gltf.document import GltfDocument
 from caesura.formats.gltf.geometry.accessors import Accessors
+from caesura.formats.gltf.gltf_document import GltfDocument
 from tests.glb import Glb
 
 CODES = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}

@@ -15,7 +15,7 @@ from caesura.formats.playback.playback_files import make_playback
 from caesura.formats.playback.strain_blocks import choose_display_patches, write_strain_blocks
 from caesura.formats.playback.vertex_blocks import LARGEST, choose_display_mesh, write_vertex_blocks
 from caesura.formats.read import read_animation
-from caesura.samples.figures import build_figure
+from caesura.samples.sample_figures import build_figure
 
 MODELS = [
     "CesiumMan.glb", "Fox.glb", "Horse.glb", "RiggedSimple.glb", "variants/Fox_quantized.glb",

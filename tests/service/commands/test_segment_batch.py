@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from caesura.samples.figures import build_figure
+from caesura.samples.sample_figures import build_figure
 from caesura.service.commands.cli import main
-from caesura.service.commands.files import output_paths
+from caesura.service.commands.file_arguments import output_paths
 from tests.conftest import unavailable
 from tests.installation import take_npz
 

@@ -10,7 +10,7 @@ from caesura.worker.queue.auxiliary_jobs import submit_export
 from caesura.worker.records import redis_keys
 from caesura.worker.records.segmentations import AnimationDeleted
 from caesura.worker.retention.deletion import delete_animation, delete_segmentation
-from caesura.worker.retention.retention import sweep, sweep_by_clock
+from caesura.worker.retention.sweep import sweep, sweep_by_clock
 
 
 def left(place, *identifiers):

@@ -3,8 +3,8 @@
 import pytest
 
 from caesura.worker.queue.auxiliary_jobs import submit_sweep_if_due
-from caesura.worker.records import redis_keys, schema
-from caesura.worker.retention.retention import sweep
+from caesura.worker.records import record_types, redis_keys
+from caesura.worker.retention.sweep import sweep
 
 LONG = 1e9
 
@@ -38,7 +38,7 @@ def test_an_unused_upload_goes_before_its_results(place, done, take):
     assert place.records.segmentations.result(cut.id)[0] is not None
     assert place.ended(place.submit(animation, motions=2).id).problem["code"] == "animation-deleted"
     again = animation.model_copy(
-        update={"parts": (schema.Part(name="", key=place.blobs.put(take, "uploads"), bytes=1),)}
+        update={"parts": (record_types.Part(name="", key=place.blobs.put(take, "uploads"), bytes=1),)}
     )
     assert place.records.animations.add(again) == (again, True)
     assert place.ended(place.submit(animation, motions=2).id).status == "done"

@@ -4,7 +4,7 @@ import time
 
 import pytest
 
-from caesura.worker.records.schema import Part
+from caesura.worker.records.record_types import Part
 from caesura.worker.store.blobs import PIECE_BYTES, BlobMissing, Blobs
 from caesura.worker.store.memory_maps import map_parts, scratch_space
 from tests.object_store import BUCKET, ObjectStore

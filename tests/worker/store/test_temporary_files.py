@@ -10,10 +10,10 @@ import pytest
 
 from caesura.worker.queue.auxiliary_jobs import submit_export
 from caesura.worker.records import redis_keys
-from caesura.worker.records.schema import AnalysisRecord, ExportRecord
+from caesura.worker.records.record_types import AnalysisRecord, ExportRecord
 from caesura.worker.retention.deletion import delete_segmentation
 from caesura.worker.retention.orphaned_blobs import delete_orphaned_blobs
-from caesura.worker.retention.retention import sweep
+from caesura.worker.retention.sweep import sweep
 from caesura.worker.store.temporary_files import delete_abandoned_files, file_path, temporary_file
 
 HOLD = """
@@ -93,7 +93,7 @@ SWEEP = """
 import os, signal, sys
 from caesura.worker.store.blobs import Blobs
 from caesura.worker.queue.jobs import Jobs
-from caesura.worker.retention.retention import sweep
+from caesura.worker.retention.sweep import sweep
 from caesura.worker.settings import WorkerSettings
 settings, left = WorkerSettings(), int(sys.argv[1])
 

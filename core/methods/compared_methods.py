@@ -7,12 +7,12 @@ from jaxtyping import Float, Int
 from threadpoolctl import threadpool_limits
 
 from caesura.core.analysis import Analysis
-from caesura.core.document import Notice
 from caesura.core.energy.key_frames import extract_key_frames
 from caesura.core.errors import ParameterError
 from caesura.core.methods.pose_features import pose_features
 from caesura.core.parameters import Parameters
 from caesura.core.segmentation import Cut
+from caesura.core.segmentation_document import Notice
 
 LabelFrames = Callable[[Float[np.ndarray, "frames D"], float, int, int], Int[np.ndarray, "frames"]]
 """Poses, frame rate, K and seed in; a motion for every frame out, of K or fewer."""

@@ -4,8 +4,8 @@ from typing import Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, TypeAdapter
 
-from caesura.core.document import Segment
 from caesura.core.parameters import Parameters
+from caesura.core.segmentation_document import Segment
 
 Status = Literal["queued", "running", "done", "failed", "cancelled"]
 Queue = Literal["analyse", "cut"]

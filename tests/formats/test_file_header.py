@@ -11,7 +11,7 @@ import pytest
 
 from caesura.core.errors import BrokenContainer, InvalidModel, LimitExceeded, UnsupportedMedia
 from caesura.core.limits import Limits
-from caesura.formats.header import MOST_JSON, Header, HeaderTake, read_header
+from caesura.formats.file_header import MOST_JSON, Header, HeaderTake, read_header
 from tests.glb import square
 
 TWO_TAKES = b"""{"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}, {"mesh": 0}],

@@ -4,8 +4,8 @@ from typing import Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from caesura.core.document import Segment
-from caesura.worker.records.schema import AnimationRecord, RevisionRecord, SegmentationRecord, Status, TakeSummary
+from caesura.core.segmentation_document import Segment
+from caesura.worker.records.record_types import AnimationRecord, RevisionRecord, SegmentationRecord, Status, TakeSummary
 
 
 class _Answer(BaseModel):

@@ -3,7 +3,7 @@
 import numpy as np
 from jaxtyping import Float
 
-from caesura.samples.motions import DRIVES, FigureMotion
+from caesura.samples.motion_curves import DRIVES, FigureMotion
 from caesura.samples.skeleton import HUMAN
 
 SOLE = (("foot", (0.0, -0.085, -0.06)), ("toes", (0.0, -0.03, 0.02)))  # heel and ball: metres from the joint

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from mmap import mmap
 
 from caesura.core.animation import Animation
-from caesura.core.document import SegmentationDocument
 from caesura.core.errors import InvalidModel
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.clips.animation_replacement import AnimationReplacement
 from caesura.formats.clips.clip_options import ClipOptions
 from caesura.formats.clips.clip_plan import Clip, TakeRange, plan_clips

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from caesura.samples.surface import Limb, polygonise_limbs
-from caesura.samples.weights import heat_weights, strongest_weights
+from caesura.samples.implicit_surface import Limb, polygonise_limbs
+from caesura.samples.skin_weights import heat_weights, strongest_weights
 
 
 @pytest.fixture(scope="module")

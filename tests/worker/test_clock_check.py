@@ -10,7 +10,7 @@ import pytest
 from caesura.worker.queue.auxiliary_jobs import SWEEP_SECONDS, submit_sweep_if_due
 from caesura.worker.queue.orphaned_jobs import OrphanedJobWatch
 from caesura.worker.records import redis_keys
-from caesura.worker.retention.retention import sweep_by_clock
+from caesura.worker.retention.sweep import sweep_by_clock
 
 DAY = 24 * 3600.0
 KEPT_UPLOAD, KEPT_RESULT = 7 * DAY, 30 * DAY

@@ -7,8 +7,8 @@ from itertools import pairwise
 import numpy as np
 from jaxtyping import Float
 
-from caesura.samples.ground import compute_root_motion, set_feet_on_ground
-from caesura.samples.motions import DRIVES, FigureMotion, Motion
+from caesura.samples.foot_contact import compute_root_motion, set_feet_on_ground
+from caesura.samples.motion_curves import DRIVES, FigureMotion, Motion
 from caesura.samples.skeleton import HUMAN, JOINTS, quaternions
 
 RATE = 30.0

@@ -8,9 +8,9 @@ import pytest
 from caesura.core.agreement import frame_accuracy
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import segment
-from caesura.samples.figures import FIGURES, build_figure
-from caesura.samples.session import PLAYED, long_session, plan_session
-from caesura.samples.take import RATE
+from caesura.samples.long_session import PLAYED, long_session, plan_session
+from caesura.samples.performed_take import RATE
+from caesura.samples.sample_figures import FIGURES, build_figure
 from tests.formats.opening import opened
 
 QUICK = 6_000  # frames of a session short enough for a test

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from caesura.samples.ground import SOLE, set_feet_on_ground
+from caesura.samples.foot_contact import SOLE, set_feet_on_ground
+from caesura.samples.performed_take import FADE, RATE, Part, perform_take
 from caesura.samples.repertoire import MOTIONS
 from caesura.samples.skeleton import HUMAN
-from caesura.samples.take import FADE, RATE, Part, perform_take
 
 
 def take(*motions, seed=3):

@@ -7,11 +7,11 @@ import time
 from redis import Redis
 from redis.exceptions import ResponseError
 
-from caesura.worker.clock import is_clock_steady
+from caesura.worker.clock_check import is_clock_steady
 from caesura.worker.queue.auxiliary_jobs import SWEEP_SECONDS
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.records import redis_keys
-from caesura.worker.records.schema import AnimationRecord
+from caesura.worker.records.record_types import AnimationRecord
 from caesura.worker.retention.deletion import delete_result_files, delete_segmentation
 from caesura.worker.retention.orphaned_blobs import delete_orphaned_blobs
 from caesura.worker.store.blobs import Blobs

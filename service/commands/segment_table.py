@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from caesura.core.control_characters import escape_control_characters
-from caesura.core.document import SegmentationDocument
+from caesura.core.segmentation_document import SegmentationDocument
 
 
 def print_table(name: str, found: SegmentationDocument) -> str:

@@ -1,6 +1,6 @@
 """Motions of the arms with force behind them."""
 
-from caesura.samples.motions import Motion
+from caesura.samples.motion_curves import Motion
 
 PUNCH = Motion(
     "punch",

@@ -14,19 +14,19 @@ from urllib.parse import parse_qsl
 
 import numpy as np
 
-from caesura.core.document import SegmentationDocument
 from caesura.core.plot.layout import lay_out_picture
 from caesura.core.plot.png import render_png
 from caesura.core.revision import apply_revision
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.clips.clip_options import ClipOptions
-from caesura.formats.clips.write import Parts, Scratch, WrittenFile, write_clips, write_key_poses
+from caesura.formats.clips.write_clips import Parts, Scratch, WrittenFile, write_clips, write_key_poses
 from caesura.worker.process.job_quota import JobQuota
 from caesura.worker.queue.job_problems import INTERNAL_ERROR, problem_of
 from caesura.worker.queue.queues import TimeLimit
 from caesura.worker.records import Records
 from caesura.worker.records.connection import tolerate_full_disk
+from caesura.worker.records.record_types import ExportRecord, SegmentationRecord
 from caesura.worker.records.revisions import read_edits
-from caesura.worker.records.schema import ExportRecord, SegmentationRecord
 from caesura.worker.retention.deletion import delete_oldest_result_files
 from caesura.worker.settings import WorkerSettings
 from caesura.worker.store.blobs import BlobMissing, Blobs

@@ -4,11 +4,11 @@ from functools import cache
 
 import numpy as np
 
-from caesura.samples.body import build_body
-from caesura.samples.model import rigid_glb, smooth_glb
-from caesura.samples.parts import build_parts
+from caesura.samples.figure_glb import rigid_glb, smooth_glb
+from caesura.samples.performed_take import RATE, Part, Sample, perform_take
 from caesura.samples.repertoire import MOTIONS
-from caesura.samples.take import RATE, Part, Sample, perform_take
+from caesura.samples.robot_parts import build_parts
+from caesura.samples.smooth_body import build_body
 
 CHOREOGRAPHIES = {
     "smooth": (

@@ -15,9 +15,9 @@ from sys import byteorder
 from redis import WatchError
 from redis.client import Pipeline
 
-from caesura.core.document import Segment, SegmentationDocument
+from caesura.core.segmentation_document import Segment, SegmentationDocument
 from caesura.worker.records import Records, redis_keys
-from caesura.worker.records.schema import SegmentationRecord
+from caesura.worker.records.record_types import SegmentationRecord
 
 
 def store_alternative(records: Records, identifier: str, document: SegmentationDocument) -> bool:

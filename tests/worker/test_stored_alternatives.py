@@ -4,9 +4,9 @@ import json
 
 import pytest
 
-from caesura.core.document import SegmentationDocument
-from caesura.worker.alternatives import restore_alternative
+from caesura.core.segmentation_document import SegmentationDocument
 from caesura.worker.records import redis_keys
+from caesura.worker.stored_alternatives import restore_alternative
 from tests.installation import take_npz
 
 SWITCHING = {"method": "switching"}

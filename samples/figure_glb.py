@@ -4,10 +4,10 @@ import numpy as np
 from jaxtyping import Float
 
 from caesura.formats.gltf.writer import Channel, GlbWriter, Primitive
-from caesura.samples.body import Body
-from caesura.samples.parts import Part
+from caesura.samples.performed_take import Take
+from caesura.samples.robot_parts import Part
 from caesura.samples.skeleton import BIND, HUMAN, quaternions
-from caesura.samples.take import Take
+from caesura.samples.smooth_body import Body
 
 
 def smooth_glb(body: Body, take: Take) -> bytes:

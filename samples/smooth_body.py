@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
+from caesura.samples.implicit_surface import Limb, Surface, polygonise_limbs
 from caesura.samples.skeleton import BIND, HUMAN
-from caesura.samples.surface import Limb, Surface, polygonise_limbs
-from caesura.samples.weights import heat_weights, strongest_weights
+from caesura.samples.skin_weights import heat_weights, strongest_weights
 
 CELL = 0.03  # metres: about 6,000 triangles
 SHARPNESS = 0.4

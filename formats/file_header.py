@@ -9,16 +9,16 @@ from dataclasses import dataclass
 from typing import BinaryIO
 
 from caesura.core.limits import Limits
-from caesura.formats.bundle.members import ZipMembers, errors_as_zip, refuse_nested_archive
+from caesura.formats.bundle.zip_members import ZipMembers, errors_as_zip, refuse_nested_archive
 from caesura.formats.bvh.hierarchy import read_bvh_header
 from caesura.formats.file_type import SIGNATURE_BYTES, Format, detect_file_type
 from caesura.formats.frame_rate import ASSUMED, count_frames, snap_frame_rate
 from caesura.formats.gltf.animation.key_times import KeyTimes
 from caesura.formats.gltf.container import CHUNK, HEADER, glb_length, json_chunk_length, parse_root
-from caesura.formats.gltf.document import check_extensions
+from caesura.formats.gltf.gltf_document import check_extensions
 from caesura.formats.gltf.summary import AnimationSummary, estimate_scene_size, summarise_animations
 from caesura.formats.notices import Notices
-from caesura.formats.npz.members import check_shapes, find_members_by_use
+from caesura.formats.npz.npz_members import check_shapes, find_members_by_use
 from caesura.formats.zip.archive import Archive
 
 MOST_JSON = 4 * 2**20

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from caesura.samples.motions import Motion
+from caesura.samples.motion_curves import Motion
 from caesura.samples.repertoire import MOTIONS
 from caesura.samples.skeleton import AXES, HUMAN
 

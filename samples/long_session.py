@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from caesura.samples.body import build_body
-from caesura.samples.model import smooth_glb
-from caesura.samples.motions import Motion
+from caesura.samples.figure_glb import smooth_glb
+from caesura.samples.motion_curves import Motion
+from caesura.samples.performed_take import RATE, Part, Sample, perform_take
 from caesura.samples.repertoire import MOTIONS, STILL, T_POSE
-from caesura.samples.take import RATE, Part, Sample, perform_take
+from caesura.samples.smooth_body import build_body
 
 SEED = 72
 PLAYED = (
