@@ -1,4 +1,4 @@
-"""What the API answers with, described once: the fields, and how they come from the records."""
+"""The documents that the API answers with: their fields, made from the records."""
 
 from typing import Any, Literal, Self
 

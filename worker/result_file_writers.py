@@ -1,4 +1,4 @@
-"""Files made of a result that need arrays: the web process has none, so a `cut` job makes them.
+"""Files made of a result that need arrays: a `cut` job writes them, for the web process has no NumPy.
 
 A form is a name, and after a question mark the revision and the options that are not the default ones:
 `clips?revision=3&origin=keep`.

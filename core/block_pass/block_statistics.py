@@ -1,4 +1,4 @@
-"""What is measured on a block of frames, while it is in the cache."""
+"""Measures one block of frames while it is in the cache."""
 
 from dataclasses import dataclass
 
@@ -26,7 +26,7 @@ class BlockStatistics:
 
 @dataclass(frozen=True)
 class BlockPass:
-    """Measures a block of frames. Safe from several threads. Codes below `floor` are not told apart in histograms."""
+    """Measures a block of frames. Safe from several threads. Histograms count codes below `floor` as 0."""
 
     animation: Animation
     body: MeasuredBody
@@ -39,7 +39,7 @@ class BlockPass:
     histograms: ThreadHistograms
 
     def measure(self, block: Block) -> BlockStatistics:
-        """Draw the block, and measure it tile by tile."""
+        """Read the block, and measure it tile by tile."""
         vertices = read_vertices(self.animation, block)
         means, histogram = self.body.patches.empty(len(vertices)), self.histograms.take()
         codes = self._kept(block)

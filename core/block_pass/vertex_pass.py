@@ -1,4 +1,4 @@
-"""The pass over the vertices: every block of frames measured, and all of them as one, in block order."""
+"""The pass over the vertices: it measures every block of frames and combines the results in block order."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace

@@ -1,4 +1,4 @@
-"""How many event streams one may have open: each holds a connection, and asking for one is only one request."""
+"""A limit of open event streams for each client, for each stream holds a connection."""
 
 from collections import Counter
 from collections.abc import Iterator

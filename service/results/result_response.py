@@ -1,4 +1,4 @@
-"""A finished result in the form that was asked for."""
+"""A finished result in the format that the request asks for."""
 
 from collections.abc import Callable
 from contextlib import aclosing

@@ -1,4 +1,4 @@
-"""Which revision of a result is meant, and what a person sends to make one."""
+"""The revision of a result that a request names, and the body that makes a new one."""
 
 import re
 from typing import Annotated

@@ -1,4 +1,4 @@
-"""What a submission asks for: which animation, called what, cut how."""
+"""A request for a segmentation: its animation, name and parameters."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace

@@ -54,7 +54,7 @@ def _too_large(upload: bool, limit: int, actual: int) -> BodyTooLarge:
         detail = f"The JSON is longer than {limit} bytes. A file is sent as the body, without a JSON type."
         return BodyTooLarge("json-too-long", detail, limit=limit, actual=actual)
     detail = (
-        f"The upload is larger than the {limit} bytes this service takes. Send a smaller file, or ask its keeper to "
+        f"The upload is larger than the {limit} bytes this service takes. Send a smaller file, or ask its operator to "
         "raise CAESURA_MAX_UPLOAD_BYTES."
     )
     return BodyTooLarge("upload-too-large", detail, limit=limit, actual=actual, setting="CAESURA_MAX_UPLOAD_BYTES")

@@ -1,4 +1,4 @@
-"""Whether there is room for more: Redis's memory, the disk, and a store that answers.
+"""Whether there is capacity for new work: Redis memory, disk space, and a store that answers.
 
 Without room work is refused at the door, while what is there is still finished and read: a full Redis could not even
 say that a job is done. What was looked at is believed for a second, so that asking costs nothing.

@@ -1,4 +1,4 @@
-"""Who goes first: work of seconds waits for work of milliseconds."""
+"""The priority of processes: short jobs run before long ones."""
 
 import os
 

@@ -33,7 +33,7 @@
 | caesura:key:DIGEST | string | KeyRecord, JSON |
 | caesura:session:DIGEST | string, expires | the digest of the key that was signed in with |
 | caesura:rate:DIGEST:ADDRESS | hash, expires | how many requests are left |
-| caesura:changed:ID | channel | told at every change of a segmentation or its exports |
+| caesura:changed:ID | channel | a message at every change of a segmentation or its exports |
 """
 
 from typing import Literal
@@ -136,5 +136,5 @@ def rate_key(digest: str, address: str) -> str:
 
 
 def channel(segmentation: str) -> str:
-    """Where changes of a segmentation are told."""
+    """The channel with the changes of a segmentation."""
     return f"caesura:changed:{segmentation}"

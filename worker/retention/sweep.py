@@ -1,4 +1,4 @@
-"""Keeping for so long and no longer: uploads and analyses since their last use, results since they were made."""
+"""The sweep: deletes uploads and analyses by their last use, and results by their age."""
 
 import logging
 import math
