@@ -144,7 +144,7 @@ class RevisionList(_Answer):
 
 
 class ViewerDocument(_Answer):
-    """What the page plays: `model` and `strain` are addresses to read by Range; see core/formats/playback."""
+    """What the page plays: `model` and `strain` are addresses to read by Range; see formats/playback."""
 
     model_config = ConfigDict(extra="allow")
 
