@@ -87,7 +87,7 @@ class AuthenticationMiddleware:
         if not self._keys_needed or known.metrics == (path == METRICS) or path == SESSION:
             return
         wanted = "This key opens /metrics and nothing else." if known.metrics else "This key does not open /metrics."
-        detail = f"{wanted} The operator of this service makes one that does: caesura keys add NAME"
+        detail = f"{wanted} The operator of this service can make one: caesura keys add NAME"
         raise Refusal("not-allowed", detail + ("." if known.metrics else " --metrics."))
 
     async def _count(self, backend: Backend, request: Request, known: Caller | None) -> dict[str, str]:
@@ -109,7 +109,5 @@ def _is_page(path: str) -> bool:
 def _unknown_caller(request: Request) -> Refusal:
     if "authorization" in request.headers:
         return UnknownCaller("unknown-key", "This key opens nothing here: it is wrong, or it was revoked.")
-    detail = (
-        "This service wants a key: send `Authorization: Bearer KEY`. Its operator makes one: caesura keys add NAME."
-    )
+    detail = "Send an API key: `Authorization: Bearer KEY`. The operator makes one: caesura keys add NAME."
     return UnknownCaller("key-needed", detail)

@@ -76,7 +76,7 @@ async def _handle_storage_error(_: Request, error: OSError) -> Response:
     """No room left is said as such; any other trouble with a file is a fault of ours."""
     if error.errno not in FULL:
         raise error
-    log.error("No room left: %s", error)
+    log.error("The disk is full: %s", error)
     return problem_response(storage_full().problem())
 
 
@@ -107,7 +107,7 @@ async def _store_unavailable(_: Request, error: Exception) -> Response:
 
 
 async def _handle_full_disk(_: Request, error: Exception) -> Response:
-    log.error("Redis takes no more: %s", error)
+    log.error("Redis refuses new data: %s", error)
     detail = "The service has no memory left for new data. Nothing is stored; try again later."
     return problem_response({"kind": "infrastructure", "code": "not-ready", "detail": detail})
 

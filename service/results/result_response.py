@@ -66,7 +66,7 @@ def unfinished_response(request: Request, record: SegmentationRecord) -> Respons
     """Why there is no result, where there is none."""
     applied = preference_applied(request)
     if record.live:
-        detail = f"It is {record.status}. Ask again, send Prefer: wait=30, or follow its events."
+        detail = f"The segmentation is {record.status}. Ask again, send Prefer: wait=30, or follow its events."
         return problem_response({"kind": "request", "code": "not-finished", "detail": detail}, applied)
     return None if record.status == "done" else problem_response(problem_of(record), applied)
 

@@ -92,7 +92,7 @@ class ServerFolder:
             with redis.Redis(unix_socket_path=str(self.socket)) as client:
                 client.shutdown()
         except redis.RedisError:
-            log.info("the server that was left behind is ending already")
+            log.info("the server of an ended service is already stopping")
         return True
 
 

@@ -88,7 +88,7 @@ def run_attempt(jobs: Jobs, identifier: str, token: str, work: Callable[[Attempt
     """
     record = jobs.records.attempts.begin(identifier, token)
     if record is None:
-        log.info("%s: this attempt is no longer wanted", identifier)
+        log.info("%s: this attempt is superseded", identifier)
         return
     attempt = Attempt(jobs, record)
     with logs.log_context(request=record.request, segmentation=identifier):
@@ -106,7 +106,7 @@ def _run_work(attempt: Attempt, work: Callable[[Attempt], None]) -> None:
     try:
         work(attempt)
     except Superseded:
-        log.info("stopped, for it is no longer wanted")
+        log.info("attempt stopped: it is superseded")
     except CaesuraError as refusal:
         attempt.fail(refusal.problem())
     except BlobMissing:
