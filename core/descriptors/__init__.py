@@ -1,4 +1,4 @@
-"""What is measured of a body in each frame: one file a descriptor, one table of them.
+"""Descriptors: measurements of a body in each frame. One file for each, one table of all.
 
 table           the descriptors by name
 strain          how far each triangle is stretched

@@ -56,7 +56,7 @@ STATUS_OF_CODE: dict[str, int] = {
     "request": 400,
     "worker": 503,
 }
-"""Status by code, else by kind. What is in neither is a fault of ours: 500."""
+"""Status by code, else by kind. A code in neither is a bug: 500."""
 
 TITLE_OF_CODE = {
     "foreign-host": "Host name not allowed",
