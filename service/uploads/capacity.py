@@ -88,4 +88,4 @@ async def require_capacity(request: Request, backend: BackendDependency) -> None
     seen: Capacity = request.app.state.headroom
     wrong = await seen.wrong(backend)
     if wrong:
-        raise Refusal("not-ready", f"{wrong} Nothing was kept; try again later.")
+        raise Refusal("not-ready", f"{wrong} Nothing is stored; try again later.")
