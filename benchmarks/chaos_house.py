@@ -84,7 +84,7 @@ class House:
         return found
 
     def stop(self) -> list[int]:
-        """End it in order, as a keeper would; which processes are still there then."""
+        """End it in order, as a operator would; which processes are still there then."""
         if self._process is not None:
             self._process.send_signal(signal.SIGTERM)
             self._process.wait(STOP_SECONDS)

@@ -1,4 +1,4 @@
-"""The door for programs: an animation, arrays, or the bytes of a file, as Python has them at hand."""
+"""The functions for programs: segment or open an animation, arrays, or the bytes of a file."""
 
 from collections.abc import Mapping
 from mmap import mmap

@@ -1,18 +1,25 @@
 """The method: arrays and frozen values in and out. No files, HTTP, Redis, clock or environment.
 
-pipeline, parameters      the steps in order, and what a person may choose
-animation                 what goes in: frames of vertices, and the triangles between them
+pipeline, parameters      the steps in order, and what a person can choose
+animation                 the input: frames of vertices, and the triangles between them
 mesh, descriptors         meshes at rest, and what is measured on them: strain, pair distances, curvature, …
 frames                    frames of vertices, read in blocks
-block_pass                the one pass over the vertices, block of frames by block of frames
+block_pass                the one pass over the vertices, block by block
 energy                    joint entropy, the energy curve, its key-frames
 methods                   from an analysis to cuts and motions: one folder a family
 registry                  methods and descriptors by name, one line each
 repetition                the repetitions inside every segment
-analysis, segmentation    what is computed once from the vertices, and what every cut of it gives
-document, revision        the result as JSON, and what people change in it
+analysis                  what is computed once from the vertices
+segmentation              the result of one cut of an analysis
+other_motion_counts       the same take cut into other numbers of motions
+feature_sequence          segmentation of features alone, without vertices
+segmentation_document     the result as JSON
+revision                  changes that a person makes to the result
 agreement                 how well two labellings agree
 plot                      the result as a picture
 kernels                   all compiled functions
-errors, limits, progress  what can be wrong, how much is allowed, how far the work is
+errors, limits            errors in the input, and how large it can be
+progress                  reports of progress
+single_threaded_blas      BLAS and OpenMP on one thread
+control_characters        control characters, escaped for terminals and logs
 """

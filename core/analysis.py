@@ -1,4 +1,4 @@
-"""What is computed once from the vertices; every cut of it is light."""
+"""The analysis: everything that is computed once from the vertices. Each cut of it is fast."""
 
 import io
 import json

@@ -1,4 +1,4 @@
-"""Everything that can be wrong with what a person gave us.
+"""All errors in the input of a person.
 
 Our exception hierarchy:
 

@@ -1,4 +1,4 @@
-"""A take of which only features are known: joint angles, an embedding, whatever somebody measured of each frame."""
+"""Segmentation of a take of which only features are known: joint angles, an embedding, any measurements."""
 
 import numpy as np
 from jaxtyping import Real

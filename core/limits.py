@@ -1,4 +1,4 @@
-"""How large a model may be. `Limits()` is what a service allows by default; `Limits.none()` is one's own machine."""
+"""Limits of the size of a model. `Limits()` are the defaults of a service; `Limits.none()` has no limits."""
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -53,7 +53,7 @@ class Limits(BaseModel):
         long = name in {"max_frames", "max_seconds"}
         raise LimitExceeded(
             "animation-too-long" if long else "limit-exceeded",
-            f"{sentence}{advice}, or ask the keeper of this service to raise {setting}.",
+            f"{sentence}{advice}, or ask the operator of this service to raise {setting}.",
             limit=limit,
             actual=actual,
             setting=setting,

@@ -1,4 +1,4 @@
-"""The same take cut into other numbers of motions: what a slider shows that goes over K."""
+"""The same take cut into other numbers of motions, for a page that compares them."""
 
 from collections.abc import Iterable, Iterator
 
@@ -13,7 +13,7 @@ def cut_into_other_motion_counts(
 ) -> Iterator[Segmentation]:
     """What `cut` answers for every number of motions that was scored when it chose one; the nearest to that first.
 
-    Exactly what it answers when told that number. What the cuts have in common is computed once, so that each takes
+    The same as `cut` answers for that number. What the cuts have in common is computed once, so that each takes
     a fraction of the first (`Analysis.once`).
     """
     for motions in sorted(scored, key=lambda motions: (abs(motions - chosen), motions)):

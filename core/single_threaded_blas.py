@@ -1,4 +1,4 @@
-"""BLAS and OpenMP on one thread: the same bits whatever the machine, and forks that do not hang."""
+"""BLAS and OpenMP on one thread: the same bits on every machine, and forks that do not hang."""
 
 import sys
 from contextlib import AbstractContextManager

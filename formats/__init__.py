@@ -1,4 +1,4 @@
-"""Files in, animations out, clips back. Bytes and buffers only: what opens paths is above.
+"""Files in, animations out, clips back. Bytes and buffers only: `caesura.api` and the commands open paths.
 
 read, header        the two doors: an animation from bytes, and what the headers alone say
 input_formats       the input formats by name: one table of them
@@ -10,11 +10,14 @@ exports             the files made of a result: one table of them
 written_file        a file that is written piece by piece
 playback            what the page plays
 kernels             compiled functions of sampling, posing and decoding
-take_selection      the take that is meant
+take_selection      which take the person asks for
 time_range          the part of a take that is read
 joined_takes        several takes, one after the other
-frame_rate          the rate of the keys
-mesh_and_motion     a mesh in one file, its motion in another
-vertex_sequence     frames of vertices that lie somewhere as an array
+frame_rate          the frame rate, estimated from key times
+mesh_and_motion     a mesh in one file and its motion in another
+vertex_sequence     frames of vertices stored as an array
+decode_budget       how many bytes a file can decode to
+strict_json         JSON as RFC 8259 defines it
+buffer_file         a buffer read as a file
 notices             what a reader assumed or left out
 """

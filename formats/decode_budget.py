@@ -1,4 +1,4 @@
-"""How many bytes may still be decoded."""
+"""A budget of decoded bytes."""
 
 from caesura.core.limits import Limits
 

@@ -1,4 +1,4 @@
-"""What a file says of itself, by its headers alone: what an upload is answered with. Light: no NumPy.
+"""Takes and sizes of a file, from its header alone: the answer to an upload. Light: no NumPy.
 
 An estimate that costs milliseconds whatever the file's size; the count of the reader holds. A file that cannot be
 opened at all is refused here already.

@@ -1,4 +1,4 @@
-"""What kind of file it is, by its first bytes: names and content types lie. Light: no NumPy."""
+"""The format of a file, detected from its first bytes; names and content types can be wrong. Light: no NumPy."""
 
 import codecs
 

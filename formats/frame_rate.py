@@ -1,4 +1,4 @@
-"""The rate that a clip was made at, told from the times of its keys. Light: no NumPy."""
+"""The frame rate of a clip, estimated from the times of its keys. Light: no NumPy."""
 
 from collections.abc import Sequence
 from itertools import pairwise

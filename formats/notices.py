@@ -1,4 +1,4 @@
-"""What a reader assumed or left out, told once each however often it happened. Light: no NumPy."""
+"""What a reader assumed or left out: one notice for each kind, with a count. Light: no NumPy."""
 
 from caesura.core.segmentation_document import Notice
 

@@ -1,4 +1,4 @@
-"""The one door for files: whatever is read becomes an Animation here."""
+"""Reads an animation from the files of an upload."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""The take that a person means. Light: no NumPy."""
+"""Selects the take that a person names. Light: no NumPy."""
 
 from caesura.core.errors import ParameterError
 

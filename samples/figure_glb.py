@@ -1,4 +1,4 @@
-"""The figures as files: a skeleton, what hangs on it, and one take, as GLB."""
+"""A figure and one take as a GLB: a skeleton, and a skinned mesh or rigid parts."""
 
 import numpy as np
 from jaxtyping import Float

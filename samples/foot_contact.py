@@ -1,4 +1,4 @@
-"""Where the hips are: as high as the lower foot lets them be, and moved along by the foot that is planted."""
+"""The height and the path of the hips: the lower foot stays on the ground, and a planted foot does not slide."""
 
 import numpy as np
 from jaxtyping import Float

@@ -1,4 +1,4 @@
-"""What a motion is: curves of joint angles over one repetition, performed again and again, never twice the same."""
+"""A motion as curves of joint angles over one repetition; every repetition varies."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -52,7 +52,7 @@ def create_app(settings: ServiceSettings) -> FastAPI:
         redirect_slashes=False,  # a redirect would go to whatever host the client names
         generate_unique_id_function=openapi.operation_name,
     )
-    app.state.headroom = Capacity()
+    app.state.capacity = Capacity()
     app.state.metrics = Metrics()
     exception_handlers.install_handlers(app)
     for routes in (animations, segmentations, results, revisions, clips, session, methods_and_limits, health):

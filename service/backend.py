@@ -1,4 +1,4 @@
-"""What lies behind the routes: records, queue and store, opened once for the life of the process."""
+"""The records, queue and store that routes use, opened once for each process."""
 
 import math
 from collections.abc import AsyncIterator, Iterator

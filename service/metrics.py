@@ -1,6 +1,6 @@
 """What Prometheus reads: this process's requests, and what Redis knows of queues, jobs, stages and the store.
 
-What workers count is kept in Redis (`caesura.worker.records.counters`) and told by every web process alike:
+What workers count is kept in Redis (`caesura.worker.records.counters`) and every web process reports the same:
 take `max` over
 several, not `sum`. Requests are each process's own: those are summed.
 """
@@ -28,11 +28,11 @@ class Metrics:
         self._found: dict[tuple[str, str, int], tuple[Counter, Histogram]] = {}
         ProcessCollector(registry=self.registry)
         self._requests = Counter(
-            "caesura_requests", "Answers, by call and status.", ["method", "route", "status"], registry=self.registry
+            "caesura_requests", "Responses by route and status.", ["method", "route", "status"], registry=self.registry
         )
         self._seconds = Histogram(
             "caesura_request_seconds",
-            "Time to the first byte of an answer; without those that were asked to wait.",
+            "Seconds to the first byte of a response, except responses to Prefer: wait.",
             ["method", "route"],
             buckets=LATENCY_BUCKETS,
             registry=self.registry,
@@ -62,7 +62,7 @@ class Metrics:
 
 
 class _SharedMetrics(Collector):
-    """What Redis and the disk tell, read at every scrape."""
+    """Metrics of Redis and the disk, read at every scrape."""
 
     def __init__(self, backend: Backend) -> None:
         self._backend = backend
@@ -72,29 +72,33 @@ class _SharedMetrics(Collector):
         redis, settings = self._backend.jobs.redis, self._backend.settings
         memory = redis.info("memory")
         stored = redis.hgetall(redis_keys.STORE_KEY)
-        told = counters.read_counters(redis.hgetall(redis_keys.COUNTERS_KEY))
-        yield _gauge("queue_jobs", "Jobs that wait in a queue.", "queue", self._backend.jobs.queues.depths())
+        worker_counters = counters.read_counters(redis.hgetall(redis_keys.COUNTERS_KEY))
+        yield _gauge("queue_jobs", "Jobs waiting in a queue.", "queue", self._backend.jobs.queues.depths())
         yield _gauge(
             "store_bytes",
-            "Size of the blobs of a kind at the last sweep.",
+            "Bytes of stored files by kind, at the last sweep.",
             "kind",
             dict(zip(decode_names(stored), map(int, stored.values()), strict=True)),
         )
         for name, help_, value in (
             (
                 "live_segmentations",
-                "Segmentations that are queued or running.",
+                "Segmentations queued or running.",
                 redis.scard(redis_keys.LIVE_SEGMENTATIONS_KEY),
             ),
-            ("redis_used_bytes", "Memory that Redis uses.", memory["used_memory"]),
-            ("redis_limit_bytes", "Memory that Redis may use; 0: all of its machine.", memory.get("maxmemory", 0)),
-            ("disk_free_bytes", "Free on the disk of the data folder.", shutil.disk_usage(settings.data_dir).free),
+            ("redis_used_bytes", "Memory used by Redis.", memory["used_memory"]),
+            ("redis_limit_bytes", "Memory limit of Redis; 0: no limit.", memory.get("maxmemory", 0)),
+            (
+                "disk_free_bytes",
+                "Free bytes on the disk of the data folder.",
+                shutil.disk_usage(settings.data_dir).free,
+            ),
         ):
             yield GaugeMetricFamily(f"caesura_{name}", help_, value=value)
-        yield _counter("segmentations", "Segmentations that came into a state.", ["status", "code"], told)
-        yield _counter("lost", "Attempts that were lost to a fault of the machine, and tried again.", ["code"], told)
-        yield _histogram("waited", "From being queued to being begun.", "queue", told)
-        yield _histogram("stage", "How long a stage of an attempt took.", "stage", told)
+        yield _counter("segmentations", "Segmentations by the state they reached.", ["status", "code"], worker_counters)
+        yield _counter("lost", "Attempts lost to a fault of the machine and tried again.", ["code"], worker_counters)
+        yield _histogram("waited", "Seconds from queued to started.", "queue", worker_counters)
+        yield _histogram("stage", "Seconds of a stage of an attempt.", "stage", worker_counters)
 
 
 def _gauge(name: str, help_: str, label: str, values: dict[str, int]) -> Metric:
@@ -104,20 +108,20 @@ def _gauge(name: str, help_: str, label: str, values: dict[str, int]) -> Metric:
     return family
 
 
-def _counter(name: str, help_: str, labels: list[str], told: "WorkerCounters") -> Metric:
+def _counter(name: str, help_: str, labels: list[str], worker_counters: "WorkerCounters") -> Metric:
     family = CounterMetricFamily(f"caesura_{name}", help_, labels=labels)
-    for given, value in told.get(name, ()):
+    for given, value in worker_counters.get(name, ()):
         family.add_metric([given.get(label, "") for label in labels], value)
     return family
 
 
-def _histogram(name: str, help_: str, label: str, told: "WorkerCounters") -> Metric:
-    """Buckets are kept one by one, and told as Prometheus wants them: each with all that are smaller."""
+def _histogram(name: str, help_: str, label: str, worker_counters: "WorkerCounters") -> Metric:
+    """A histogram with cumulative buckets, from counts of single buckets."""
     family = HistogramMetricFamily(f"caesura_{name}_seconds", help_, labels=[label])
     counts: dict[str, dict[str, float]] = {}
-    for given, count in told.get(f"{name}_bucket", ()):
+    for given, count in worker_counters.get(f"{name}_bucket", ()):
         counts.setdefault(given[label], {})[given["le"]] = count
-    sums = {given[label]: total for given, total in told.get(f"{name}_sum", ())}
+    sums = {given[label]: total for given, total in worker_counters.get(f"{name}_sum", ())}
     for value, kept in sorted(counts.items()):
         ends, below = [], 0.0
         for end in counters.BUCKETS:

@@ -21,7 +21,7 @@ NO_ANSWER = 499
 """What is counted where the client had gone before an answer began."""
 
 POLLED = frozenset({"/healthz", "/readyz", "/metrics", "/v1/segmentations/{identifier}"})
-"""Asked again and again, by probes and by everyone who waits: counted, and told only where they fail."""
+"""Requests that clients repeat, such as probes and status reads: counted, and logged only where they fail."""
 
 
 class RequestLogMiddleware:
@@ -57,5 +57,5 @@ class RequestLogMiddleware:
         self._metrics.request(scope["method"], route, status, None if waited else seconds)
         if route in POLLED and scope["method"] == "GET" and status < FAILED:
             return
-        told = {"method": scope["method"], "path": scope["path"], "status": status, "ms": round(seconds * 1000, 1)}
-        log.info("request", extra={"fields": told})
+        fields = {"method": scope["method"], "path": scope["path"], "status": status, "ms": round(seconds * 1000, 1)}
+        log.info("request", extra={"fields": fields})

@@ -1,4 +1,4 @@
-"""What the API answers with, described once: the fields, and how they come from the records."""
+"""The documents that the API answers with: their fields, made from the records."""
 
 from typing import Any, Literal, Self
 
@@ -144,7 +144,7 @@ class RevisionList(_Answer):
 
 
 class ViewerDocument(_Answer):
-    """What the page plays: `model` and `strain` are addresses to read by Range; see core/formats/playback."""
+    """What the page plays: `model` and `strain` are addresses to read by Range; see formats/playback."""
 
     model_config = ConfigDict(extra="allow")
 

@@ -1,4 +1,4 @@
-"""What the keeper of the web process may set beside the worker's settings."""
+"""The settings of the web process, beside the worker's."""
 
 from ipaddress import ip_address
 from pathlib import Path

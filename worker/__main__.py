@@ -1,4 +1,4 @@
-"""`python -m caesura.worker`: take jobs from Redis until told to stop.
+"""`python -m caesura.worker`: take jobs from Redis until a signal ends it.
 
 python -m caesura.worker                                    one worker for everything, one for `cut` alone
 python -m caesura.worker --queues cut                       one worker, for `cut` alone
@@ -35,7 +35,7 @@ DEFAULT_GROUPS = [["analyse", "cut"], ["cut"]]
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the workers, or check them."""
     parser = argparse.ArgumentParser(
-        prog="python -m caesura.worker", description="Take jobs from Redis until told to stop."
+        prog="python -m caesura.worker", description="Take jobs from Redis until a signal ends it."
     )
     parser.add_argument("--queues", action="append", type=_queues, metavar="NAME,…", help="one worker; may be repeated")
     parser.add_argument("--check", action="store_true", help="exit with 0 where a worker of this machine is alive")

@@ -1,4 +1,4 @@
-"""Whether the clock may say what is old: it must have gone evenly, from look to look, for a day.
+"""Checks that the clock is steady: only after a day of even steps does anything get deleted by its age.
 
 A clock that jumps ahead makes everything old at once, and what is deleted is gone; to wait costs a day. A machine that
 was off looks the same, so a gap is taken for a jump only where it is long beside the time that things are kept.

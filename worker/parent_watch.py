@@ -1,4 +1,4 @@
-"""No orphans: a process that ends when the one that started it does, however that one ended.
+"""Ends a process when its parent ends, however the parent ends.
 
 Linux sends the child a signal (prctl PR_SET_PDEATHSIG) when the *thread* that created it ends, so children are
 started from the main thread only. Elsewhere a child has to look for itself: `parent_is_gone`.

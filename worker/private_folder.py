@@ -1,4 +1,4 @@
-"""A folder that nobody but its owner enters: uploads, results and Redis's socket lie in it."""
+"""A folder with permissions for its owner alone: it holds uploads, results and the socket of Redis."""
 
 import logging
 import os

@@ -1,4 +1,4 @@
-"""What the keeper of an installation may set: environment variables that begin with CAESURA_, read once per process."""
+"""The settings of a worker: environment variables that begin with CAESURA_, read once per process."""
 
 import os
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Stored answers: the same take cut into every number of motions that was scored when nobody said how many.
+"""Stored alternatives: the same take cut into every number of motions that the method scored.
 
 They lie beside the result that scored them and go with it. Nobody has asked for them yet, so they are no
 segmentations: the first time that one is asked for it becomes one, done at once and without a job.

@@ -1,4 +1,4 @@
-"""What a worker does: read an upload, analyse it, cut it, and keep the result. Each function is one RQ job."""
+"""The jobs of a worker: read an upload, analyse it, cut it, store the result. Each function is one RQ job."""
 
 import time
 from contextlib import suppress

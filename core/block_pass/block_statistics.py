@@ -1,4 +1,4 @@
-"""What is measured on a block of frames, while it is in the cache."""
+"""Measures one block of frames while it is in the cache."""
 
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
@@ -41,7 +41,7 @@ class BlockPass:
     lock: AbstractContextManager[bool] = field(default_factory=Lock)
 
     def measure(self, block: Block) -> BlockStatistics:
-        """Draw the block, and measure it tile by tile."""
+        """Read the block, and measure it tile by tile."""
         vertices = read_vertices(self.animation, block)
         means, histogram = self.body.patches.empty(len(vertices)), np.zeros(CODES, np.int64)
         codes = self._kept(block)

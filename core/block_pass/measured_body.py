@@ -1,4 +1,4 @@
-"""What is measured of a body: the descriptor, its means on patches, and pair distances; all of the rest shape."""
+"""The descriptor of a body, its patch means and its pair distances, all prepared from the rest shape."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""A look at a few frames before the pass over all: how far coordinates go, and how large strain gets."""
+"""The range of coordinates and of strain, estimated from a few frames before the pass over all of them."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""The rest shape: what every frame is compared with."""
+"""The rest shape, which every frame is compared with."""
 
 from typing import Literal
 

@@ -1,4 +1,4 @@
-"""The strain at some frames, normalised: what key-frames are compared by."""
+"""The normalised strain at some frames, for the comparison of key-frames."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""The pass over the vertices: every block of frames measured, and all of them as one, in block order."""
+"""The pass over the vertices: it measures every block of frames and combines the results in block order."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -90,53 +90,60 @@ def run_block_pass(
 
     The codes are kept where all of them fit into `memory_bytes`.
     """
-    glance = RangeEstimate.at(animation, body.surface)
-    coding = Quantisation.for_largest(glance.strain)
-    surveyor = BlockPass(
+    estimate = RangeEstimate.at(animation, body.surface)
+    quantisation = Quantisation.for_largest(estimate.strain)
+    block_pass = BlockPass(
         animation,
         body,
-        glance.reach,
-        coding,
-        int(coding.encode(np.full(1, glance.common, np.float32))[0]),
-        body.surface.noise(glance.reach),
+        estimate.reach,
+        quantisation,
+        int(quantisation.encode(np.full(1, estimate.common, np.float32))[0]),
+        body.surface.noise(estimate.reach),
         learn_feature_basis(animation, body, threads, progress),
         np.empty(min(animation.frames * body.surface.columns, memory_bytes // 2), np.uint16),
         np.zeros(CODES, np.int64),
     )
     blocks = split_into_blocks(animation.frames, frames_per_block(animation.vertex_count))
-    together = threads_at_once(threads, animation.vertex_count, body.surface.columns)
+    used_threads = threads_at_once(threads, animation.vertex_count, body.surface.columns)
     while True:
-        pages = map_blocks(surveyor.measure, blocks, together, progress=progress, stage="strain", total=len(blocks))
-        take = _combine(surveyor, blocks, together, pages)
+        statistics = map_blocks(
+            block_pass.measure, blocks, used_threads, progress=progress, stage="strain", total=len(blocks)
+        )
+        take = _combine(block_pass, blocks, used_threads, statistics)
         better = _better_quantisation(take, parameters)
         if better is None:
             return take
-        surveyor = replace(surveyor, quantisation=better, floor=0, histogram=np.zeros(CODES, np.int64))
+        block_pass = replace(block_pass, quantisation=better, floor=0, histogram=np.zeros(CODES, np.int64))
 
 
 def _better_quantisation(take: PassResult, parameters: Parameters) -> Quantisation | None:
-    """The coding with which the bins of the take come out right, if its own is not that, or counts from too high."""
-    coding, counts, rule = take.block_pass.quantisation, take.histogram, parameters.normalize
+    """The quantisation that the bins of the take need, if its own does not do or counts from too high a code."""
+    quantisation, counts, rule = take.block_pass.quantisation, take.histogram, parameters.normalize
     if rule == "p99.9" and take.has_strain:
-        if not coding.reaches_percentile(counts):
-            return coding.wider()
-        if take.block_pass.floor and not coding.resolves_percentile(counts):
-            return coding
+        if not quantisation.reaches_percentile(counts):
+            return quantisation.wider()
+        if take.block_pass.floor and not quantisation.resolves_percentile(counts):
+            return quantisation
     scale = take.scale(rule)
     better = Quantisation.for_largest(scale)
-    return None if better == coding or coding.resolves_edges(scale, parameters.bins, counts) else better
+    return None if better == quantisation or quantisation.resolves_edges(scale, parameters.bins, counts) else better
 
 
-def _combine(surveyor: BlockPass, blocks: list[Block], threads: int, measured: Iterable[BlockStatistics]) -> PassResult:
-    """The pages of a take, in order, as one."""
-    pages = list(measured)
+def _combine(
+    block_pass: BlockPass, blocks: list[Block], threads: int, measured: Iterable[BlockStatistics]
+) -> PassResult:
+    """The statistics of a take, in order, as one."""
+    statistics = list(measured)
     return PassResult(
-        surveyor,
+        block_pass,
         blocks,
         threads,
-        surveyor.histogram,
-        max(page.largest for page in pages),
-        sum(page.above_noise for page in pages),
-        max(page.largest_pair_change for page in pages),
-        (np.concatenate([page.features[0] for page in pages]), np.concatenate([page.features[1] for page in pages])),
+        block_pass.histogram,
+        max(block.largest for block in statistics),
+        sum(block.above_noise for block in statistics),
+        max(block.largest_pair_change for block in statistics),
+        (
+            np.concatenate([block.features[0] for block in statistics]),
+            np.concatenate([block.features[1] for block in statistics]),
+        ),
     )

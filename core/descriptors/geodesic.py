@@ -38,7 +38,7 @@ class Geodesic:
 
     mesh: Mesh
     net: EdgeGraph
-    sources: tuple["DistanceSource", ...]
+    sources: tuple["SourceRank", ...]
     at_rest: Float32[np.ndarray, "columns 1"]
 
     @classmethod

@@ -1,4 +1,4 @@
-"""What the methods that ours is compared with have in common: poses in, a motion for every frame out."""
+"""What the methods for comparison share: poses in, a motion for every frame out."""
 
 from collections.abc import Callable
 
@@ -21,7 +21,7 @@ LabelFrames = Callable[[Float[np.ndarray, "frames D"], float, int, int], Int[np.
 def cut_by_compared_method(analysis: Analysis, parameters: Parameters, divide: LabelFrames, most_frames: int) -> Cut:
     """Cut by `divide`. Nothing deforms: one segment. How sure a cut is, these methods do not say.
 
-    Raises `ParameterError`: `motions-needed` where K is not told, `too-long-for-method` above `most_frames`, because
+    Raises `ParameterError`: `motions-needed` where K is not given, `too-long-for-method` above `most_frames`, because
     time grows with the square of the frames.
     """
     window = round(parameters.keyframe_window_seconds * analysis.frame_rate)
@@ -46,5 +46,7 @@ def cut_by_compared_method(analysis: Analysis, parameters: Parameters, divide: L
     found = len(np.unique(labels))
     if found == motions:
         return Cut(labels, keys)
-    detail = f"{motions} motions were asked for, but {parameters.method} tells only {found} apart: that many it is."
+    detail = (
+        f"{motions} motions were asked for, but {parameters.method} distinguishes only {found}; the result has {found}."
+    )
     return Cut(labels, keys, notices=(Notice(code="fewer-motions", detail=detail),))

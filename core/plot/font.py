@@ -1,4 +1,4 @@
-"""Which font writes a label: Pillow's own, which has plain letters alone, or one that was handed in."""
+"""The font of a label: Pillow's own, which has Latin letters alone, or one that the operator gives."""
 
 import io
 from typing import NamedTuple

@@ -1,4 +1,4 @@
-"""Where everything stands in the picture of a result. Light: no NumPy, so that the web process can draw it."""
+"""The layout of the picture of a result. Light: no NumPy, so that the web process can draw it."""
 
 import math
 import unicodedata

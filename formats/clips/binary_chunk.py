@@ -33,7 +33,7 @@ class BinaryChunk:
         self._new.append((self._take(len(data)), data))
         return self._new[-1][0]
 
-    def moved(self, offset: int) -> int:
+    def new_offset(self, offset: int) -> int:
         """Where a byte is that was at `offset`."""
         rank = bisect_right(self._kept, (offset, 2**63)) - 1
         return self._places[rank] + offset - self._kept[rank][0]
@@ -93,7 +93,7 @@ def drop_unused_bytes(file: SelfContainedGltf, opened: set[int]) -> BinaryChunk:
         elif number in whole:
             for part in byte_ranges_of_view(view):
                 if part["buffer"] == 0:
-                    _put_part(part, chunk.moved(part.get("byteOffset", 0)))
+                    _put_part(part, chunk.new_offset(part.get("byteOffset", 0)))
         else:
             views[number] = dict(UNUSED_VIEW)
     return chunk
@@ -102,11 +102,11 @@ def drop_unused_bytes(file: SelfContainedGltf, opened: set[int]) -> BinaryChunk:
 def _shrink(view: dict[str, Any], named: list[tuple[dict[str, Any], int, int]], chunk: BinaryChunk) -> None:
     """Let a view reach from the first byte that an accessor names to the last."""
     first = min(begin for _, begin, _ in named)
-    start = chunk.moved(first - first % ALIGNED)
+    start = chunk.new_offset(first - first % ALIGNED)
     for part, begin, _ in named:
-        _put_part(part, chunk.moved(begin) - start)
+        _put_part(part, chunk.new_offset(begin) - start)
     _put_part(view, start)
-    view["byteLength"] = chunk.moved(max(end for _, _, end in named) - 1) + 1 - start
+    view["byteLength"] = chunk.new_offset(max(end for _, _, end in named) - 1) + 1 - start
 
 
 def _put_part(part: dict[str, Any], offset: int) -> None:

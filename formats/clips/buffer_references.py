@@ -1,4 +1,4 @@
-"""What of a glTF something refers to: its accessors, its views, and their bytes.
+"""The accessors, views and bytes of a glTF that something refers to.
 
 Numbers in the JSON are never changed, for an extension may name an accessor or a view in ways that are not known
 here: any whole number within one that is not known is taken for such a name.

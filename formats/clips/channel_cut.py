@@ -1,4 +1,4 @@
-"""A part of a channel that moves exactly as the whole does."""
+"""Cuts a part out of a channel without a change to its motion."""
 
 from dataclasses import dataclass
 

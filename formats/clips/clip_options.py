@@ -1,4 +1,4 @@
-"""How clips are made of segments. Light: no NumPy, so that the web process can check and describe it."""
+"""The options of clips. Light: no NumPy, so that the web process can check and describe them."""
 
 from collections.abc import Mapping
 from typing import Any, Literal, Self

@@ -1,4 +1,4 @@
-"""Which clips there will be: their names and their seconds. Light: no NumPy."""
+"""The plan of the clips: their names and times. Light: no NumPy."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -52,14 +52,14 @@ class _Piece:
     """What of a segment lies in one take, and its seconds there."""
 
     segment: Segment
-    stretch: TakeRange
+    take_range: TakeRange
     frames: Interval
     start: float
     end: float
 
 
 def plan_clips(
-    document: SegmentationDocument, options: ClipOptions, stretches: Sequence[TakeRange], taken: Iterable[str] = ()
+    document: SegmentationDocument, options: ClipOptions, take_ranges: Sequence[TakeRange], taken: Iterable[str] = ()
 ) -> tuple[Clip, ...]:
     """The clips of a result, beside animations whose names are `taken`.
 
@@ -75,7 +75,7 @@ def plan_clips(
         for segment in document.segments
         if segment.name not in discarded and (options.keep_discarded or not segment.discard)
         for part in _split_at_repeats(segment, options.split_repeats)
-        for piece in _pieces_in_takes(document, segment, part, stretches)
+        for piece in _pieces_in_takes(document, segment, part, take_ranges)
         if piece.end - piece.start >= options.min_seconds
     ]
     if not pieces:
@@ -84,16 +84,16 @@ def plan_clips(
             "No clip is left: every segment is discarded, or shorter than min_seconds. Ask for less to be left out.",
             parameter="discard" if discarded else "min_seconds",
         )
-    _is_long_enough(pieces, options, stretches)
+    _is_long_enough(pieces, options, take_ranges)
     names = number_repeated_names(
         ((piece.segment.name, piece.segment.loop or piece.segment.name in looping) for piece in pieces), taken
     )
     return tuple(_clip(document, options, name, piece) for name, piece in zip(names, pieces, strict=True))
 
 
-def _is_long_enough(pieces: Sequence[_Piece], options: ClipOptions, stretches: Sequence[TakeRange]) -> None:
+def _is_long_enough(pieces: Sequence[_Piece], options: ClipOptions, take_ranges: Sequence[TakeRange]) -> None:
     """Handles make clips overlap: many short ones with long handles are the take over and over again."""
-    whole = sum(stretch.until - stretch.start for stretch in stretches)
+    whole = sum(take_range.until - take_range.start for take_range in take_ranges)
     asked = sum(min(piece.end - piece.start + 2 * options.handles_seconds, whole) for piece in pieces)
     if options.handles_seconds and asked > max(MOST_OVER * whole, SHORT_SECONDS):
         detail = f"With these handles the clips of a take of {whole:.0f} seconds are {asked:.0f} seconds long together."
@@ -113,26 +113,26 @@ def _clip(document: SegmentationDocument, options: ClipOptions, name: str, piece
     }
     return Clip(
         name=name,
-        take=piece.stretch.take,
+        take=piece.take_range.take,
         start_frame=piece.frames.start,
         end_frame=piece.frames.end,
         start=max(piece.start - options.handles_seconds, 0.0),
-        end=min(piece.end + options.handles_seconds, max(piece.stretch.duration, piece.end)),
+        end=min(piece.end + options.handles_seconds, max(piece.take_range.duration, piece.end)),
         extras={key: value for key, value in extras.items() if value is not None},
     )
 
 
 def _pieces_in_takes(
-    document: SegmentationDocument, segment: Segment, part: Interval, stretches: Sequence[TakeRange]
+    document: SegmentationDocument, segment: Segment, part: Interval, take_ranges: Sequence[TakeRange]
 ) -> Iterator[_Piece]:
     """A part of a segment in each take that it touches."""
     rate = document.frame_rate
-    for stretch in stretches:
-        start, end = max(part.start, stretch.first), min(part.end, stretch.end)
+    for take_range in take_ranges:
+        start, end = max(part.start, take_range.first), min(part.end, take_range.end)
         if start < end:
-            begin = stretch.start + (start - stretch.first) / rate
-            until = stretch.until if end == stretch.end else stretch.start + (end - stretch.first) / rate
-            yield _Piece(segment, stretch, Interval(start=start, end=end), begin, min(until, stretch.until))
+            begin = take_range.start + (start - take_range.first) / rate
+            until = take_range.until if end == take_range.end else take_range.start + (end - take_range.first) / rate
+            yield _Piece(segment, take_range, Interval(start=start, end=end), begin, min(until, take_range.until))
 
 
 def _split_at_repeats(segment: Segment, split: bool) -> tuple[Interval, ...]:

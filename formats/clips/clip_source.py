@@ -1,4 +1,4 @@
-"""What a clip takes over of a file. Each clip is a copy, so the author's own data (`extras`) goes along if small."""
+"""The parts of a file that every clip copies; large author data (`extras`) is left out."""
 
 import json
 from collections import deque

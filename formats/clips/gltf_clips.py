@@ -16,11 +16,11 @@ def plan_gltf_clips(
     file: AnimationReplacement, document: SegmentationDocument, options: ClipOptions
 ) -> tuple[Clip, ...]:
     """The clips of the document, with names that no animation has which stays beside them."""
-    stretches = gltf_take_ranges(file, document)
-    replaced = {stretch.take for stretch in stretches} if not options.keep_source else set()
+    take_ranges = gltf_take_ranges(file, document)
+    replaced = {take_range.take for take_range in take_ranges} if not options.keep_source else set()
     beside = options.files == "one" and not options.animation_only
     staying = [n for number, n in enumerate(file.document.take_names) if beside and number not in replaced]
-    return plan_clips(document, options, stretches, staying)
+    return plan_clips(document, options, take_ranges, staying)
 
 
 def write_gltf_clips(

@@ -22,14 +22,14 @@ NAME = "key_frames"
 def write_gltf_key_poses(file: AnimationReplacement, document: SegmentationDocument) -> Iterator[bytes]:
     """The uploaded glTF, its take replaced by the key poses, each at its own time in the take."""
     _require_key_frames(document)
-    stretches = [s for s in gltf_take_ranges(file, document) if _frames(document, s)]
-    file.remove({stretch.take for stretch in stretches})
-    names = [NAME] if len(stretches) == 1 else number_repeated_names([(NAME, False)] * len(stretches), ())
-    for name, stretch in zip(names, stretches, strict=True):
-        frames = _frames(document, stretch)
-        exact = stretch.start + (np.array(frames) - stretch.first) / document.frame_rate
+    take_ranges = [s for s in gltf_take_ranges(file, document) if _frames(document, s)]
+    file.remove({take_range.take for take_range in take_ranges})
+    names = [NAME] if len(take_ranges) == 1 else number_repeated_names([(NAME, False)] * len(take_ranges), ())
+    for name, take_range in zip(names, take_ranges, strict=True):
+        frames = _frames(document, take_range)
+        exact = take_range.start + (np.array(frames) - take_range.first) / document.frame_rate
         tracks = ClipTracks()
-        for channel in take_channels(file, stretch.take):
+        for channel in take_channels(file, take_range.take):
             output = file.array(
                 channel.keys.at(exact).astype(np.float32), channel.output.type, channel.output.width, {}
             )
@@ -42,8 +42,8 @@ def write_gltf_key_poses(file: AnimationReplacement, document: SegmentationDocum
                     **channel.sampler_extras,
                 },
             )
-        source = file.document.animations[stretch.take].value
-        file.add(stretch.take, [tracks.animation(name, source, _extras(document, frames))])
+        source = file.document.animations[take_range.take].value
+        file.add(take_range.take, [tracks.animation(name, source, _extras(document, frames))])
     return file.pieces()
 
 
@@ -69,8 +69,8 @@ def _require_key_frames(document: SegmentationDocument) -> None:
         raise InvalidModel("no-key-frames", detail)
 
 
-def _frames(document: SegmentationDocument, stretch: TakeRange) -> list[int]:
-    return [key.frame for key in document.key_frames if stretch.first <= key.frame < stretch.end]
+def _frames(document: SegmentationDocument, take_range: TakeRange) -> list[int]:
+    return [key.frame for key in document.key_frames if take_range.first <= key.frame < take_range.end]
 
 
 def _round_down_to_float32(seconds: Float[np.ndarray, "keys"]) -> Float[np.ndarray, "keys"]:

@@ -1,4 +1,4 @@
-"""A glTF as one piece: every buffer that came with it becomes the binary chunk, every image beside it a part of it."""
+"""A glTF in one file: all buffers become the binary chunk, and all images become part of it."""
 
 import copy
 from collections.abc import Iterator

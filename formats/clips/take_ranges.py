@@ -1,4 +1,4 @@
-"""Which frames of a result are of which take: of the one that was cut, or of all of them, one after the other."""
+"""The frames of a result that belong to each take."""
 
 from caesura.core.parameters import Parameters
 from caesura.core.segmentation_document import SegmentationDocument
@@ -17,7 +17,7 @@ def gltf_take_ranges(file: AnimationReplacement, document: SegmentationDocument)
     parameters = Parameters.model_validate(document.parameters)
     if document.source.take != ALL:
         return [_take_range(file, document, parameters)]
-    rate, stretches = document.frame_rate, []
+    rate, take_ranges = document.frame_rate, []
     film = -round(document.source.start_seconds * rate)  # where the take begins among the frames that were drawn
     for take in range(len(file.document.animations)):
         channels = read_channels(file.document, file.accessors, file.document.animations[take])
@@ -30,9 +30,9 @@ def gltf_take_ranges(file: AnimationReplacement, document: SegmentationDocument)
         start = origin + (first - film) / rate
         if first < end:
             until = duration if end == film + frames else start + (end - 1 - first) / rate
-            stretches.append(TakeRange(take, first, end, start, until, duration))
+            take_ranges.append(TakeRange(take, first, end, start, until, duration))
         film += frames
-    return stretches
+    return take_ranges
 
 
 def _take_range(file: AnimationReplacement, document: SegmentationDocument, parameters: Parameters) -> TakeRange:

@@ -1,4 +1,4 @@
-"""The door for what comes out: an upload and its segmentation in, a file of clips or of key poses out."""
+"""Writes the clips or the key poses of an upload and its segmentation."""
 
 from collections.abc import Callable, Iterator, Mapping
 from mmap import mmap
@@ -40,7 +40,7 @@ def write_clips(parts: Parts, document: SegmentationDocument, options: ClipOptio
         return WrittenFile(ZIP, write_npz_clips(animation, plan_clips(document, options, [whole])))
     file = AnimationReplacement(gltf, animation_only=options.animation_only)
     made = plan_gltf_clips(file, document, options)
-    takes = {stretch.take for stretch in gltf_take_ranges(file, document)}
+    takes = {take_range.take for take_range in gltf_take_ranges(file, document)}
     if options.files == "one":
         return WrittenFile(GLB, write_gltf_clips(file, made, options, takes))
 

@@ -18,7 +18,7 @@ def segments_csv(document: SegmentationDocument) -> str:
     return _csv(
         SEGMENT_COLUMNS,
         (
-            (s.name, s.motion, s.start, s.end, f"{s.start_seconds:.6f}", f"{s.end_seconds:.6f}", *_said(s))
+            (s.name, s.motion, s.start, s.end, f"{s.start_seconds:.6f}", f"{s.end_seconds:.6f}", *_segment_row(s))
             for s in document.segments
         ),
     )
@@ -45,7 +45,7 @@ def frames_csv(document: SegmentationDocument) -> str:
     )
 
 
-def _said(segment: Segment) -> tuple[object, ...]:
+def _segment_row(segment: Segment) -> tuple[object, ...]:
     return "" if segment.confidence is None else segment.confidence, int(segment.loop), int(segment.discard)
 
 

@@ -1,11 +1,13 @@
 """glTF 2.0: GLB or JSON, read into an animation, and written.
 
-container, document, json_object  the outer shape, the lists of its JSON, and one checked object of it
-summary                           what the JSON says with hardly any data
-geometry                          accessors, buffers, primitives, skin weights, instances
-draco, meshopt                    compressed geometry
-animation                         takes, channels, keys, and their values at any time
-posing                            nodes, skins, and vertices of any block of frames
-scene_mesh                        all that is drawn of a scene, as one body
-read, writer                      the steps of reading in order; a GLB written
+read                        the steps of reading in order
+container                   the GLB container and the JSON
+gltf_document, json_object  the lists of the JSON, and one checked object of it
+summary                     takes and sizes from the JSON alone
+geometry                    accessors, buffers, primitives, skin weights, instances
+draco, meshopt              compressed geometry
+animation                   takes, channels, keys, and their values at any time
+posing                      nodes, skins, and vertices of any block of frames
+scene_mesh                  everything that the scene draws, as one mesh
+writer                      a GLB from arrays
 """

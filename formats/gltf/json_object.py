@@ -133,9 +133,9 @@ def _utf8(text: str) -> str:
     return text.encode("utf-8", "replace").decode("utf-8")
 
 
-def _text(told: str) -> str:
-    """What a person is told, however the names in it are made."""
-    return _utf8(told if len(told) <= LONGEST else f"{told[:LONGEST]}…")
+def _text(text: str) -> str:
+    """The text as valid UTF-8, shortened."""
+    return _utf8(text if len(text) <= LONGEST else f"{text[:LONGEST]}…")
 
 
 def _one_line(value: Any) -> str:

@@ -94,5 +94,7 @@ def _rate(document: GltfDocument, parameters: Parameters, tracks: KeyTracks) -> 
         return float(parameters.fps)
     rate = estimate_key_rate(tracks.densest[:MOST_KEYS].tolist())
     if rate is None:
-        document.notices.add("frame-rate-assumed", f"The keys tell no frame rate; {ASSUMED:g} a second was taken.")
+        document.notices.add(
+            "frame-rate-assumed", f"The keys have no frame rate; {ASSUMED:g} frames a second are assumed."
+        )
     return rate or ASSUMED

@@ -1,4 +1,4 @@
-"""All that is drawn of a scene, as one body: vertices, triangles, and what moves them."""
+"""Everything that a scene draws, as one mesh: vertices, triangles, joints and morph targets."""
 
 from dataclasses import dataclass, replace
 

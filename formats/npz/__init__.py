@@ -1,1 +1,1 @@
-"""Vertex sequences as NumPy archives: their members' headers, judged without NumPy, and their arrays."""
+"""Vertex sequences as NumPy archives: the headers of their members, checked without NumPy, and their arrays."""

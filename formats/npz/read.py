@@ -144,7 +144,7 @@ def _frame_rate(stored: Shaped[np.ndarray, "..."]) -> float:
 def _rates(parameters: Parameters, stored: float | None, notices: Notices) -> tuple[float, float]:
     """The rate of the frames in the file, and the one that is drawn."""
     if stored is None and parameters.fps == "source":
-        notices.add("frame-rate-assumed", f"The file tells no frame rate; {ASSUMED:g} a second was taken.")
+        notices.add("frame-rate-assumed", f"The file has no frame rate; {ASSUMED:g} frames a second are assumed.")
         return ASSUMED, ASSUMED
     fps = stored or ASSUMED if parameters.fps == "source" else float(parameters.fps)
     return stored or fps, fps

@@ -1,4 +1,4 @@
-"""What the page plays of a take, made in one call."""
+"""The files that the page plays of a take."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

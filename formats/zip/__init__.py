@@ -1,1 +1,1 @@
-"""Zip archives: judged before anything in them is opened, and written as streams."""
+"""Zip archives: checked before a member is opened, and written as streams."""

@@ -35,7 +35,7 @@ class Problem(BaseModel):
     parameter: str | None = None
     limit: float | None = None
     actual: float | None = None
-    setting: str | None = Field(None, description="the setting that the keeper of the service may change")
+    setting: str | None = Field(None, description="the setting that the operator of the service may change")
 
 
 def install_description(app: FastAPI) -> None:
@@ -64,7 +64,7 @@ def _document(app: FastAPI) -> dict[str, Any]:
         "content": {MEDIA_TYPE: {"schema": {"$ref": template.format(model="Problem")}, "example": PROBLEM}},
     }
     document["components"]["securitySchemes"] = {"key": {"type": "http", "scheme": "bearer"}}
-    document["security"] = [{"key": []}, {}]  # the second: where the keeper of the service wants none
+    document["security"] = [{"key": []}, {}]  # the second: where the operator of the service wants none
     for path in document["paths"].values():
         for operation in path.values():
             operation["responses"].pop("422", None)  # FastAPI's own form of a refusal, which is not ours

@@ -44,7 +44,7 @@ class KeyRecord(BaseModel):
 def new_key(name: str, owner: str | None = None, *, metrics: bool = False) -> tuple[str, KeyRecord]:
     """A key, and what is kept of it; of an owner of its own where none is given. Raises `ParameterError` for a name."""
     if not _NAME.fullmatch(name):
-        detail = f"{name!r} is no name for a key: take up to 64 letters, digits, and . _ @ - of them."
+        detail = f"{name!r} is not a valid key name. Use up to 64 letters, digits and the signs . _ @ -."
         raise ParameterError("invalid-parameter", detail, parameter="name")
     key = PREFIX + secrets.token_urlsafe(KEY_BYTES)
     owner = secrets.token_hex(OWNER_BYTES) if owner is None else owner

@@ -35,7 +35,7 @@ class KeyFile:
                 self._keys, self._seen = _read(self._path), seen
         except (OSError, UnicodeDecodeError) as fault:
             if self._seen != ():
-                log.warning("The file of keys cannot be read, so none of its keys is known: %s", fault)
+                log.warning("The key file cannot be read, so none of its keys is valid: %s", fault)
             self._keys, self._seen = {}, ()
         return self._keys.get(digest)
 
@@ -54,5 +54,9 @@ def _read(path: Path) -> dict[str, KeyRecord]:
             name, owner, digest, metrics = match.groups()
             known[digest] = KeyRecord(name=name, owner=owner, digest=digest, metrics=bool(metrics))
         elif said:
-            log.error("%s, line %d is no key: NAME OWNER DIGEST is what `caesura keys add --line` prints", path, number)
+            log.error(
+                "%s, line %d is not a key: a line is NAME OWNER DIGEST, as `caesura keys add --line` prints it",
+                path,
+                number,
+            )
     return known

@@ -1,4 +1,4 @@
-"""Who asks: somebody with a key, a browser that is signed in, or nobody known."""
+"""Authenticates a request: by an API key, or by the session of a browser."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""The door: every request passes here before any route sees it, so that a new route is guarded without a word.
+"""Authentication of every request before a route sees it, so that a new route is protected by default.
 
 In order: may this page ask at all (`origins`), who is it (`visitors`), is it too often (`rate`). What needs no key is
 listed here; everything else does, where keys are needed.
@@ -47,7 +47,7 @@ class AuthenticationMiddleware:
             return
         request = Request(scope)
         try:
-            told = await self._admit(request)
+            rate_headers = await self._admit(request)
         except Refusal as refused:
             await refusal_response(refused)(scope, receive, send)
             return
@@ -55,12 +55,12 @@ class AuthenticationMiddleware:
             await unavailable(fault)(scope, receive, send)
             return
 
-        async def tell(message: Message) -> None:
+        async def send_with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
-                MutableHeaders(scope=message).update(told)
+                MutableHeaders(scope=message).update(rate_headers)
             await send(message)
 
-        await self._app(scope, receive, tell if told else send)
+        await self._app(scope, receive, send_with_headers if rate_headers else send)
 
     async def _admit(self, request: Request) -> dict[str, str]:
         """Note whose request it is; the headers that tell how many are left. Raises the refusal."""
@@ -72,7 +72,7 @@ class AuthenticationMiddleware:
             return {}
         backend: Backend = request.app.state.backend
         known = await authenticate(backend, request) if self._keys_needed else Caller(LOCAL_OWNER)
-        told = await self._count(backend, request, known)
+        rate_headers = await self._count(backend, request, known)
         if known is None and request.scope["path"] != SESSION:
             raise _unknown_caller(request)
         if known is not None:
@@ -80,14 +80,14 @@ class AuthenticationMiddleware:
         if known is not None and known.by_cookie and not reading:
             self._origins.check_named(request.headers)
         request.state.visitor = known
-        return told
+        return rate_headers
 
     def _check_reach(self, known: Caller, path: str) -> None:
         """Raises the refusal where it is not for this key: /metrics has everybody's sums, and keys of its own."""
         if not self._keys_needed or known.metrics == (path == METRICS) or path == SESSION:
             return
         wanted = "This key opens /metrics and nothing else." if known.metrics else "This key does not open /metrics."
-        detail = f"{wanted} The keeper of this service makes one that does: caesura keys add NAME"
+        detail = f"{wanted} The operator of this service can make one: caesura keys add NAME"
         raise Refusal("not-allowed", detail + ("." if known.metrics else " --metrics."))
 
     async def _count(self, backend: Backend, request: Request, known: Caller | None) -> dict[str, str]:
@@ -109,5 +109,5 @@ def _is_page(path: str) -> bool:
 def _unknown_caller(request: Request) -> Refusal:
     if "authorization" in request.headers:
         return UnknownCaller("unknown-key", "This key opens nothing here: it is wrong, or it was revoked.")
-    detail = "This service wants a key: send `Authorization: Bearer KEY`. Its keeper makes one: caesura keys add NAME."
+    detail = "Send an API key: `Authorization: Bearer KEY`. The operator makes one: caesura keys add NAME."
     return UnknownCaller("key-needed", detail)

@@ -1,4 +1,4 @@
-"""Which web pages may use the service from a browser: its own, and nobody else's.
+"""Checks which web page makes a request: only the own page of the service may.
 
 A page elsewhere can make a browser send requests here. Two things tell them: `Origin` (and `Sec-Fetch-Site`) names
 the page that asks, and `Host` the name the browser went by. The second matters where no key is needed: a page may have
@@ -27,7 +27,7 @@ class OriginPolicy:
         """Raises `Refusal` ("foreign-host") where the browser was led here by a name that is not ours."""
         name = _host_name(headers.get("host", ""))
         if name not in self._names and not _is_address(name):
-            detail = f"This service is not called {name!r}. Its keeper can add the name to CAESURA_PUBLIC_HOSTS."
+            detail = f"This service is not called {name!r}. Its operator can add the name to CAESURA_PUBLIC_HOSTS."
             raise Refusal("foreign-host", detail, setting="CAESURA_PUBLIC_HOSTS")
 
     def check_origin(self, headers: Headers, *, following: bool) -> None:

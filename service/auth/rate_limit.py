@@ -1,4 +1,4 @@
-"""How often one may ask: a bucket of tokens for each key and address, kept in Redis, so that all services share it.
+"""The rate limit: a token bucket for each key and address, kept in Redis and shared by all services.
 
 A bucket holds a minute's worth of requests and fills at that rate: bursts pass, floods wait. Redis's own clock
 counts, so the clocks of the services do not matter.

@@ -1,4 +1,4 @@
-"""Whose request it is, as the door (service/auth/middleware.py) found it."""
+"""The owner of a request, as the middleware (service/auth/middleware.py) found it."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""Signing in: a browser gives its key once, and gets a cookie that no script can read and no other site can send.
+"""Sessions: a browser sends its key once, and gets a cookie that no script and no other site can use.
 
 The session's id is random, and Redis holds only its digest, with the digest of the key: a session ends when its time
 is up, when it is signed out, or when its key is revoked.

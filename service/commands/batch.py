@@ -1,4 +1,4 @@
-"""Several files, one after the other: what became of each, and how the command ends."""
+"""A batch of files: the outcome of each, and the exit code of the command."""
 
 import sys
 import traceback

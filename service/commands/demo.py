@@ -58,7 +58,7 @@ def _segment_samples(url: str) -> float:
                 found = client.segment(glb, f"{name}.glb", {"motions": str(motions)}, progress)
             accuracy = compute_agreement(Labelling.of(found.model_dump()), truth)["frame_accuracy"]
             click.echo(_compare_with_truth(name, found, truth))
-            click.echo(f"  frame accuracy {accuracy:.3f}, told that there are {motions} motions")
+            click.echo(f"  frame accuracy {accuracy:.3f}, given the number of motions, {motions}")
             click.echo(f"  {url}/view/{found.id}\n")
             accuracies.append(accuracy)
     return min(accuracies)

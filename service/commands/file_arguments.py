@@ -1,4 +1,4 @@
-"""The files that a command is given, and where what is made of each goes."""
+"""The files that a command is given, and the output path of each."""
 
 from collections import Counter
 from collections.abc import Sequence

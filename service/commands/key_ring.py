@@ -1,4 +1,4 @@
-"""The keys that Redis holds, for the one who keeps the installation."""
+"""The API keys in Redis, for the operator."""
 
 import redis
 

@@ -1,4 +1,4 @@
-"""Who does what when: a segmentation or a truth as labels of frames, and how well two of them agree."""
+"""Labels of frames from a segmentation or a truth, and the agreement of two."""
 
 import json
 import math

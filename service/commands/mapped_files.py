@@ -1,4 +1,4 @@
-"""Files as memory: core reads buffers and opens nothing itself."""
+"""Files mapped into memory: core reads buffers and opens nothing itself."""
 
 import mmap
 import os

@@ -1,4 +1,4 @@
-"""How a command ends: its exit code, and what was wrong as a sentence or as JSON."""
+"""The exit code of a command, and its error as a sentence or as JSON."""
 
 import json
 import sys

@@ -9,7 +9,7 @@ from caesura.service.commands.problems import Command
 @click.option("--queues", multiple=True, metavar="NAME,...", help="One worker that takes from these; may be repeated.")
 @click.option("--check", is_flag=True, help="End at once: 0 where a worker of this machine is alive, 1 where none is.")
 def worker(queues: tuple[str, ...], check: bool) -> None:
-    """Take jobs from the Redis that REDIS_URL names, until told to stop.
+    """Take jobs from the Redis that REDIS_URL names, until a signal ends it.
 
     Without --queues: one worker for `analyse` and `cut`, and one for `cut` alone, so that a new number of motions
     never waits behind a long take.

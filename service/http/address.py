@@ -1,4 +1,4 @@
-"""Where the service listens: the socket, the address that a client is told, and whether anybody answers there."""
+"""The socket that the service listens on, its address, and whether it answers."""
 
 import http.client
 import socket

@@ -30,6 +30,8 @@ def decode_cursor(cursor: str) -> float | None:
     except (ValueError, binascii.Error):
         created = math.nan
     if not math.isfinite(created):
-        detail = f"cursor = {cursor!r} is none of ours. Take it from `next` of a page, or leave it out."
+        detail = (
+            f"cursor = {cursor!r} is not a cursor of this service. Use the one in `next` of a page, or leave it out."
+        )
         raise ParameterError("invalid-parameter", detail, parameter="cursor")
     return created

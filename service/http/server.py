@@ -1,4 +1,4 @@
-"""The HTTP server, which tells those who wait that it is about to stop, so that their answers end in order."""
+"""The HTTP server: before it stops, it ends waits and event streams in order."""
 
 import socket
 import sys

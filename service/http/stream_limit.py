@@ -1,4 +1,4 @@
-"""How many event streams one may have open: each holds a connection, and asking for one is only one request."""
+"""A limit of open event streams for each client, for each stream holds a connection."""
 
 from collections import Counter
 from collections.abc import Iterator
@@ -29,7 +29,7 @@ class StreamLimit:
     def check(self, who: StreamClient) -> None:
         """Raises `TooManyStreams` where one more would be too many."""
         if self._taken[who] >= MOST_STREAMS:
-            detail = f"{MOST_STREAMS} event streams are open from here already. Close some, or ask for the status."
+            detail = f"{MOST_STREAMS} event streams of this client are open already. Close some, or ask for the status."
             raise TooManyStreams("too-many-streams", detail, limit=MOST_STREAMS)
 
     @contextmanager

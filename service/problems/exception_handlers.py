@@ -57,7 +57,7 @@ async def _handle_routing_error(request: Request, error: HTTPException) -> Respo
         detail = f"{request.method} is not possible on {path}. Allowed: {allowed}."
         return problem_response({"kind": "request", "code": "method-not-allowed", "detail": detail}, error.headers)
     if error.status_code == 404:
-        detail = f"There is nothing at {path}. /openapi.json lists what there is."
+        detail = f"No resource exists at {path}. /openapi.json lists all paths."
         return problem_response({"kind": "request", "code": "not-found", "detail": detail})
     return problem_response({"kind": "request", "code": "bad-request", "detail": f"{error.detail}."})
 
@@ -68,7 +68,7 @@ async def _handle_disconnect(_: Request, __: Exception) -> Response:
 
 
 async def _handle_missing_blob(_: Request, __: Exception) -> Response:
-    detail = "This file is no longer kept here: its time has run out. Upload it again."
+    detail = "This file is no longer stored. Upload it again."
     return problem_response({"kind": "request", "code": "gone", "detail": detail})
 
 
@@ -76,7 +76,7 @@ async def _handle_storage_error(_: Request, error: OSError) -> Response:
     """No room left is said as such; any other trouble with a file is a fault of ours."""
     if error.errno not in FULL:
         raise error
-    log.error("No room left: %s", error)
+    log.error("The disk is full: %s", error)
     return problem_response(storage_full().problem())
 
 
@@ -95,24 +95,24 @@ async def _handle_redis_error(_: Request, error: Exception) -> Response:
 def unavailable(error: Exception) -> Response:
     """Redis does not answer."""
     log.error("Redis does not answer: %s", error)
-    detail = "The queue cannot be reached just now. Nothing was lost; try again shortly."
+    detail = "The queue does not answer. No data is lost; try again in a few seconds."
     return problem_response({"kind": "infrastructure", "code": "queue-unavailable", "detail": detail})
 
 
 async def _store_unavailable(_: Request, error: Exception) -> Response:
     """The object store does not answer; its library has tried for some seconds."""
     log.error("The object store does not answer: %s", str(error).partition("\n")[0])
-    detail = "The store of files cannot be reached just now. Nothing is wrong with the request; try again shortly."
+    detail = "The file store does not answer. The request is valid; try again in a few seconds."
     return problem_response({"kind": "infrastructure", "code": "storage-unavailable", "detail": detail})
 
 
 async def _handle_full_disk(_: Request, error: Exception) -> Response:
-    log.error("Redis takes no more: %s", error)
-    detail = "The service has no room for this just now. Nothing was kept; try again later."
+    log.error("Redis refuses new data: %s", error)
+    detail = "The service has no memory left for new data. Nothing is stored; try again later."
     return problem_response({"kind": "infrastructure", "code": "not-ready", "detail": detail})
 
 
 async def _handle_bug(_: Request, __: Exception) -> Response:
     """A fault of ours: logged with its traceback by the server, without details here."""
-    detail = "Something went wrong on our side. It has been logged; try again, and tell the keeper if it stays."
+    detail = "The service has an internal error, which is logged. Try again, and tell the operator if it persists."
     return problem_response({"kind": "internal", "code": "internal-error", "detail": detail})

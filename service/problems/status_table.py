@@ -1,4 +1,4 @@
-"""Every problem the service answers with, and the one table that gives it a status.
+"""Problem documents, and the table of their statuses and titles.
 
 Below this layer nobody knows HTTP: `core` raises, the worker stores, and here each code or kind becomes a status
 and an RFC 9457 problem document.
@@ -56,7 +56,42 @@ STATUS_OF_CODE: dict[str, int] = {
     "request": 400,
     "worker": 503,
 }
-"""Status by code, else by kind. What is in neither is a fault of ours: 500."""
+"""Status by code, else by kind. A code in neither is a bug: 500."""
+
+TITLE_OF_CODE = {
+    "foreign-host": "Host name not allowed",
+    "foreign-origin": "Origin not allowed",
+    "gone": "File deleted",
+    "internal-error": "Internal server error",
+    "invalid-gltf": "Invalid glTF file",
+    "json-too-long": "JSON body too long",
+    "key-needed": "API key required",
+    "malformed-bvh": "Malformed BVH file",
+    "malformed-glb": "Malformed GLB file",
+    "malformed-json": "Malformed JSON",
+    "malformed-multipart": "Malformed multipart form",
+    "malformed-npz": "Malformed NPZ file",
+    "malformed-shape": "Malformed OBJ or PLY file",
+    "malformed-zip": "Malformed zip archive",
+    "motions-needed": "Number of motions required",
+    "no-animation": "No animation in the file",
+    "no-file": "File required",
+    "no-if-match": "If-Match header required",
+    "no-key-frames": "No key-frames in the result",
+    "no-mesh": "No mesh in the file",
+    "no-motion": "No motion in the file",
+    "not-allowed": "Not allowed with this key",
+    "not-finished": "Result not finished",
+    "not-ready": "Service at capacity",
+    "out-of-memory": "Memory limit reached",
+    "out-of-time": "Time limit reached",
+    "outside-take": "Time range outside the take",
+    "queue-full": "Queue full",
+    "stale-revision": "Newer revision exists",
+    "storage-full": "Insufficient storage",
+    "unknown-key": "Unknown API key",
+}
+"""Titles of codes that do not read as a title themselves; every other title is its code in words."""
 
 RETRY_SECONDS = {409: 1, 503: 5}
 
@@ -79,13 +114,17 @@ def problem_response(problem: Mapping[str, Any], headers: Mapping[str, str] | No
     code = str(problem["code"])
     document = {
         "type": f"urn:caesura:problem:{code}",
-        "title": code.replace("-", " ").capitalize(),
+        "title": TITLE_OF_CODE.get(code) or code.replace("-", " ").capitalize(),
         "status": status,
         **problem,
     }
     retry = {"Retry-After": str(RETRY_SECONDS[status])} if status in RETRY_SECONDS else {}
-    told = {"Cache-Control": "no-store", **retry, **(headers or {})}  # a 404 may be kept for others, unless it says so
-    return JSONResponse(document, status, told, MEDIA_TYPE)
+    all_headers = {
+        "Cache-Control": "no-store",
+        **retry,
+        **(headers or {}),
+    }  # a 404 may be kept for others, unless it says so
+    return JSONResponse(document, status, all_headers, MEDIA_TYPE)
 
 
 def refusal_response(refused: Refusal) -> Response:

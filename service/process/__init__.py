@@ -1,1 +1,6 @@
-"""Processes: the supervisor of a machine, the children it watches, the web process."""
+"""Processes of one machine.
+
+supervisor     starts and watches the embedded Redis, the workers and the web process
+child_process  one child, started again when it ends
+web            the web process
+"""

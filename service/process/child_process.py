@@ -1,4 +1,4 @@
-"""A process of ours that is meant to be there: it ends with us, and is started again where it ends on its own."""
+"""A child process: it ends with its parent, and is started again when it ends on its own."""
 
 import logging
 import os

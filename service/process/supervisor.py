@@ -76,7 +76,7 @@ def _watch_children(
                 ready = True
                 on_ready(address_of_socket(listening))
                 if settings.keys_needed:
-                    log.info("Every call needs a key here; `caesura keys add NAME` makes one")
+                    log.info("Every call needs an API key; `caesura keys add NAME` makes one")
     finally:
         web.process.terminate()
         workers.process.terminate()
@@ -91,7 +91,7 @@ def _resume_jobs(settings: ServiceSettings) -> None:
     remove_dead_workers(client)
     lost = recover_orphaned_jobs(Jobs.open(settings))
     if lost:
-        log.warning("%d jobs were running at the last end; they are tried again", lost)
+        log.warning("%d jobs were running when the service ended; they are tried again", lost)
 
 
 def _stop_signals() -> list[int]:

@@ -1,4 +1,4 @@
-"""A finished result in the form that was asked for."""
+"""A finished result in the format that the request asks for."""
 
 from contextlib import aclosing
 from dataclasses import dataclass
@@ -50,7 +50,7 @@ def unfinished_response(request: Request, record: SegmentationRecord) -> Respons
     """Why there is no result, where there is none."""
     applied = preference_applied(request)
     if record.live:
-        detail = f"It is {record.status}. Ask again, send Prefer: wait=30, or follow its events."
+        detail = f"The segmentation is {record.status}. Ask again, send Prefer: wait=30, or follow its events."
         return problem_response({"kind": "request", "code": "not-finished", "detail": detail}, applied)
     return None if record.status == "done" else problem_response(problem_of(record), applied)
 

@@ -1,4 +1,4 @@
-"""Which revision of a result is meant, and what a person sends to make one."""
+"""The revision of a result that a request names, and the body that makes a new one."""
 
 import re
 from typing import Annotated
@@ -84,9 +84,11 @@ async def parse_revision_request(request: Request) -> RevisionRequest:
 def refuse_stale_revision(record: SegmentationRecord) -> Refusal:
     """Why a revision was not kept."""
     if record.revision >= MOST_REVISIONS:
-        detail = f"The result has {MOST_REVISIONS} revisions, as many as are kept. Cut the take anew to edit further."
+        detail = (
+            f"The result has {MOST_REVISIONS} revisions, which is the limit. Segment the take again to edit further."
+        )
         return Refusal("too-many-revisions", detail, limit=MOST_REVISIONS)
-    detail = f"Somebody else was here before: the newest revision is {record.revision}. Look at it, then edit again."
+    detail = f"Another person saved revision {record.revision} first. Load it, then edit again."
     return Refusal("stale-revision", detail, current=record.revision)
 
 

@@ -29,6 +29,8 @@ class ClipQuery(ClipOptions):
 
 @dataclass(frozen=True)
 class ResultFileRequest:
+    """Which file of a result is asked for: its kind, the revision and the choices of clips."""
+
     what: str
     revision: str
     choices: str = ""

@@ -1,4 +1,4 @@
-"""What the service offers, and how much it takes."""
+"""The methods, the exports and the limits of the service."""
 
 from fastapi import APIRouter, Response
 from pydantic import BaseModel

@@ -1,4 +1,4 @@
-"""Revisions: the segments as people have set them, layer by layer over the result that was computed."""
+"""Revisions: segments that people edited, stored beside the computed result."""
 
 from anyio import to_thread
 from fastapi import APIRouter, Request, Response

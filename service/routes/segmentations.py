@@ -95,9 +95,9 @@ async def events(
     who = stream_client(request)
     backend.stream_limit.check(who)
     stream = status_events(backend, identifier, last_event_id, partial(is_still_admitted, backend, request))
-    seat = backend.stream_limit.open_stream(who)
+    slot = backend.stream_limit.open_stream(who)
     return StreamingResponse(
-        counted_stream(seat, stream), headers={"Cache-Control": "no-store"}, media_type="text/event-stream"
+        counted_stream(slot, stream), headers={"Cache-Control": "no-store"}, media_type="text/event-stream"
     )
 
 

@@ -20,9 +20,9 @@ def event_id(record: SegmentationRecord) -> str:
     return f"{record.updated:.6f}"
 
 
-async def counted_stream(seat: AbstractContextManager[None], stream: AsyncGenerator[str]) -> AsyncIterator[str]:
-    """The same stream, which takes a seat from its first word until it is over or left."""
-    with seat:
+async def counted_stream(slot: AbstractContextManager[None], stream: AsyncGenerator[str]) -> AsyncIterator[str]:
+    """The same stream; it counts against the stream limit from its first byte to its end."""
+    with slot:
         async with aclosing(stream):
             async for text in stream:
                 yield text

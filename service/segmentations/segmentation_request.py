@@ -1,4 +1,4 @@
-"""What a submission asks for: which animation, called what, cut how."""
+"""A request for a segmentation: its animation, name and parameters."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -22,7 +22,7 @@ class SegmentationRequest:
         """The same with the fields of a form, which say what the query may say too, but not both."""
         twice = sorted(fields.keys() & self.parameters.keys())
         if twice:
-            detail = f"{twice[0]} is given in the form and in the query. Say it once."
+            detail = f"{twice[0]} is given in the form and in the query. Give it once."
             raise ParameterError("repeated-parameter", detail, parameter=twice[0])
         rest = dict(fields)
         name = rest.pop("name", "")
@@ -38,7 +38,7 @@ async def request_from_json(request: Request) -> SegmentationRequest:
     """From a JSON body, with the same names. Raises `Refusal` for what is no JSON object."""
     given = await read_json_body(request, '{"animation": "…", "motions": 5}')
     if request.query_params:
-        detail = "Parameters of a JSON call belong into the JSON, not into the query."
+        detail = "Parameters of a JSON request belong in the JSON, not in the query."
         raise ParameterError("misplaced-parameter", detail, parameter=next(iter(request.query_params)))
     if not given.get("animation"):
         detail = 'The JSON must name an animation: {"animation": "…"}. Upload the file first, or send it as the body.'

@@ -1,4 +1,4 @@
-"""How a segmentation is answered: 200 when done, 202 while it will still change, its own problem when it failed."""
+"""The response with a status: 200 when done, 202 while it can change, its problem when it failed."""
 
 from collections.abc import Mapping
 

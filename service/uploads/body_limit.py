@@ -51,10 +51,10 @@ def _is_upload(path: str, headers: Headers) -> bool:
 
 def _too_large(upload: bool, limit: int, actual: int) -> BodyTooLarge:
     if not upload:
-        detail = f"The JSON is longer than {limit} bytes. A file is sent as the body, without a JSON type."
+        detail = f"The JSON is longer than {limit} bytes. Send a file without the type application/json."
         return BodyTooLarge("json-too-long", detail, limit=limit, actual=actual)
     detail = (
-        f"The upload is larger than the {limit} bytes this service takes. Send a smaller file, or ask its keeper to "
+        f"The upload is larger than the {limit} bytes this service takes. Send a smaller file, or ask its operator to "
         "raise CAESURA_MAX_UPLOAD_BYTES."
     )
     return BodyTooLarge("upload-too-large", detail, limit=limit, actual=actual, setting="CAESURA_MAX_UPLOAD_BYTES")

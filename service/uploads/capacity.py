@@ -1,4 +1,4 @@
-"""Whether there is room for more: Redis's memory, the disk, and a store that answers.
+"""Whether there is capacity for new work: Redis memory, disk space, and a store that answers.
 
 Without room work is refused at the door, while what is there is still finished and read: a full Redis could not even
 say that a job is done. What was looked at is believed for a second, so that asking costs nothing.
@@ -27,23 +27,23 @@ PATIENCE_SECONDS = 3.0
 
 
 class Capacity:
-    """What was seen last."""
+    """The capacity as last measured, for up to a second."""
 
     def __init__(self) -> None:
         self._seen = float("-inf")
-        self._wrong = ""
+        self._shortage = ""
 
-    async def wrong(self, backend: Backend) -> str:
-        """What there is no room in, or what does not answer, as a sentence; empty where all is well."""
+    async def shortage(self, backend: Backend) -> str:
+        """What is full or does not answer, as a sentence; empty while there is capacity."""
         now = time.monotonic()
         if now - self._seen >= BELIEVED_SECONDS:
-            self._wrong = await measure_capacity(backend)
+            self._shortage = await measure_capacity(backend)
             self._seen = now
-        return self._wrong
+        return self._shortage
 
 
 async def measure_capacity(backend: Backend) -> str:
-    """The same, looked at now; what takes too long to answer does not answer."""
+    """Measure the capacity now; an answer that takes too long counts as none."""
     with move_on_after(PATIENCE_SECONDS):
         return await to_thread.run_sync(_find_shortage, backend, abandon_on_cancel=True)
     return "The service waits for its Redis or its store."
@@ -54,17 +54,19 @@ def _find_shortage(backend: Backend) -> str:
     try:
         backend.jobs.redis.ping()
         if _redis_share(backend.jobs.redis) >= FULL_SHARE:
-            return f"Redis uses {FULL_SHARE:.0%} of the memory it may, and takes no more work until results have gone."
+            return (
+                f"Redis uses {FULL_SHARE:.0%} of the memory it may, and accepts no new work until results are deleted."
+            )
         backend.spool.mkdir(parents=True, exist_ok=True)
         if not os.access(backend.spool, os.W_OK):
             return "The service cannot write to its data folder."
         if shutil.disk_usage(backend.spool).free < settings.min_free_bytes:
-            return "The disk of the service is nearly full, and takes no more work until something has gone."
+            return "The disk of the service is nearly full, and accepts no new work until files are deleted."
         backend.blobs.reach()
     except RedisError as error:
-        return "The disk of Redis is full." if refuses_writes(error) else "The service cannot use Redis just now."
+        return "The disk of Redis is full." if refuses_writes(error) else "The service cannot use Redis at the moment."
     except (OSError, StoreError):
-        return "The service cannot use its store just now."
+        return "The service cannot use its store at the moment."
     return ""
 
 
@@ -82,10 +84,10 @@ async def describe_unserved_queues(backend: Backend) -> str:
 
 
 async def require_capacity(request: Request, backend: BackendDependency) -> None:
-    """Refuse new work that there is no room for."""
+    """Refuse new work while there is no capacity for it."""
     if request.method != "POST":
         return
-    seen: Capacity = request.app.state.headroom
-    wrong = await seen.wrong(backend)
-    if wrong:
-        raise Refusal("not-ready", f"{wrong} Nothing was kept; try again later.")
+    capacity: Capacity = request.app.state.capacity
+    shortage = await capacity.shortage(backend)
+    if shortage:
+        raise Refusal("not-ready", f"{shortage} Nothing is stored; try again later.")

@@ -1,4 +1,4 @@
-"""From files in the spool to an animation that is kept: its header read, its id made of its content."""
+"""Registers an upload: reads its header, makes its id from its content, and stores its files."""
 
 import time
 from collections.abc import Iterable

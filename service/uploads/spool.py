@@ -1,4 +1,4 @@
-"""A file on its way in: written, counted, hashed and synced in the data folder, so that keeping it is a rename."""
+"""The spool: a file is written, counted, hashed and synced in the data folder while it is received."""
 
 import hashlib
 import os

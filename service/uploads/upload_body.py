@@ -108,4 +108,4 @@ async def _refuse_rest(request: Request) -> NoReturn:
     with move_on_after(FAREWELL_SECONDS):
         async for _ in request.stream():
             pass
-    raise Refusal("not-ready", "The service is stopping. Nothing was kept; send it again in a moment.")
+    raise Refusal("not-ready", "The service is stopping. Nothing is stored; send it again in a moment.")

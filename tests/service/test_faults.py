@@ -34,7 +34,7 @@ def test_a_store_that_does_not_answer_is_said_before_the_upload_is_read(checkout
         refused = other.http.post("/v1/segmentations", content=take(901))
         assert (refused.status_code, refused.json()["code"]) == (503, "not-ready")
         assert int(refused.headers["Retry-After"]) >= 1
-        assert "Nothing was kept" in refused.json()["detail"]
+        assert "Nothing is stored" in refused.json()["detail"]
         assert other.http.get("/readyz").status_code == 503
         assert other.http.get("/healthz").status_code == 200
         assert not other.spooled()

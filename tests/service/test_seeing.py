@@ -99,7 +99,7 @@ def test_the_id_goes_into_the_record(idle, take):
 def test_lines_for_machines_are_json_and_lines_for_people_are_short():
     """Both say what they are about; a traceback stays in its line of JSON."""
     record = logging.LogRecord("here", logging.INFO, "file", 1, "it is %s", ("so",), None)
-    record.told = {"status": 200}
+    record.fields = {"status": 200}
     with logs.log_context(request="7", segmentation=""):
         told = json.loads(logs.JsonLines().format(record))
         assert logs.TextLines("%(levelname)s %(message)s").format(record) == "INFO it is so request=7 status=200"
@@ -122,7 +122,7 @@ def test_no_value_forges_a_line_for_people():
     """Neither a value, nor a message, nor an exception's text starts a line, ends a value or reaches the terminal."""
     forged = "/a\n2026-01-01 INFO service.requests: request\x1b[2J status=200"
     record = logging.LogRecord("here", logging.INFO, "file", 1, "asked for %s", (forged,), None)
-    record.told = {"path": forged, "empty": ""}
+    record.fields = {"path": forged, "empty": ""}
     record.exc_info = (ValueError, ValueError(forged), None)
     first, *rest = logs.TextLines("%(levelname)s %(message)s").format(record).split("\n")
     assert first == f"INFO asked for /a path={forged!r} empty="

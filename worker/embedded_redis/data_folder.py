@@ -51,9 +51,9 @@ class ServerFolder:
 
         Valkey and Redis keep apart, for neither reads all of the other.
         """
-        told = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout  # noqa: S603  ours or the keeper's
-        product = "valkey" if "valkey" in told.lower() else "redis"
-        major = int(told.split("v=")[1].split(".")[0])
+        output = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout  # noqa: S603  ours or the operator's
+        product = "valkey" if "valkey" in output.lower() else "redis"
+        major = int(output.split("v=")[1].split(".")[0])
         kept = self.path / product
         kept.mkdir(exist_ok=True)
         stamp = kept / "version"
@@ -87,12 +87,12 @@ class ServerFolder:
                 return lock
 
     def _ask_to_end(self) -> bool:
-        """Where a parent's death is not told to its children (macOS), the server has outlived its owner."""
+        """Where a parent's death sends no signal to its children (macOS), the server can outlive its owner."""
         try:
             with redis.Redis(unix_socket_path=str(self.socket)) as client:
                 client.shutdown()
         except redis.RedisError:
-            log.info("the server that was left behind is ending already")
+            log.info("the server of an ended service is already stopping")
         return True
 
 

@@ -27,7 +27,7 @@ class JobQuota:
 
 
 def _lower(what: int, soft: int) -> None:
-    """Set the soft limit, within the hard one, which only the machine's keeper sets."""
+    """Set the soft limit, within the hard one, which only the machine's operator sets."""
     hard = resource.getrlimit(what)[1]
     resource.setrlimit(what, (soft if hard == resource.RLIM_INFINITY else min(soft, hard), hard))
 

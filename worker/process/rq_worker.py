@@ -1,4 +1,4 @@
-"""RQ's worker, as we want it: it dies with its parent, says that its job lives, and tells how a job was lost."""
+"""RQ's worker with a parent watch, a heartbeat for each job, a work-horse, and a record of lost jobs."""
 
 import gc
 import json

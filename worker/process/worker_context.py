@@ -1,4 +1,4 @@
-"""What a job works with, opened once in the process that does it: never before a fork, for a store has threads."""
+"""Settings, queue, records and store of a job. They are opened after the fork, for a store has threads."""
 
 from dataclasses import dataclass
 from functools import cache, lru_cache

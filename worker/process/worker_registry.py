@@ -1,4 +1,4 @@
-"""Who works, as Redis keeps it: which queues are served, whether anybody of this machine is alive, and who is dead.
+"""The living workers in Redis: the queues they serve, whether one is on this machine, and which are dead.
 
 A worker is warm when it registers: everything was compiled before it was forked (`caesura.worker.process.warm_up`).
 Its sign of life

@@ -2,7 +2,7 @@
 
 jobs               segmentations and their states
 queues             RQ's queues
-auxiliary_jobs     jobs that are no segmentation
+auxiliary_jobs     jobs other than segmentations
 attempt            one attempt at one segmentation
 progress_reporter  how far an attempt is
 orphaned_jobs      live segmentations that nobody works on, found and tried again

@@ -1,4 +1,4 @@
-"""One attempt at one segmentation: how far it tells it is, and how it learns that it is no longer wanted."""
+"""One attempt at one segmentation: its progress, its end, and how it learns that it is superseded."""
 
 import logging
 import time
@@ -43,7 +43,7 @@ class Attempt:
         self._teller = ProgressReporter(self._write)
 
     def progress(self, stage: str, fraction: float) -> None:
-        """Have it told where it is; raises `Superseded` where an earlier word found that nobody wants it any more.
+        """Report the progress; raises `Superseded` where an earlier report found another attempt, or none, current.
 
         A stage that needs a second pass stays where it was until that is further: progress never goes back.
         """
@@ -55,7 +55,7 @@ class Attempt:
             raise Superseded
 
     def end(self) -> None:
-        """Nothing more is told, and the last stage is over."""
+        """Stop the reports, and end the last stage."""
         self._teller.stop()
         self.end_stage()
 
@@ -88,7 +88,7 @@ def run_attempt(jobs: Jobs, identifier: str, token: str, work: Callable[[Attempt
     """
     record = jobs.records.attempts.begin(identifier, token)
     if record is None:
-        log.info("%s: this attempt is no longer wanted", identifier)
+        log.info("%s: this attempt is superseded", identifier)
         return
     attempt = Attempt(jobs, record)
     with logs.log_context(request=record.request, segmentation=identifier):
@@ -106,7 +106,7 @@ def _run_work(attempt: Attempt, work: Callable[[Attempt], None]) -> None:
     try:
         work(attempt)
     except Superseded:
-        log.info("stopped, for it is no longer wanted")
+        log.info("attempt stopped: it is superseded")
     except CaesuraError as refusal:
         attempt.fail(refusal.problem())
     except BlobMissing:

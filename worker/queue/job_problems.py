@@ -1,4 +1,4 @@
-"""What can go wrong with a job that is not the file's fault, as records tell it."""
+"""Problems of a job that the file does not cause."""
 
 from typing import Any
 
@@ -20,13 +20,13 @@ def worker_problem(code: str, detail: str, **where: Any) -> dict[str, Any]:
 
 OUT_OF_MEMORY = worker_problem(
     "out-of-memory",
-    "This take needs more memory than a job may use here. Send a smaller mesh or a shorter take, or ask the keeper "
+    "This take needs more memory than a job may use here. Send a smaller mesh or a shorter take, or ask the operator "
     "of this service to raise CAESURA_JOB_MEMORY_BYTES.",
     setting="CAESURA_JOB_MEMORY_BYTES",
 )
 OUT_OF_TIME = worker_problem(
     "out-of-time",
-    "This take needs more time than a job may use here. Send a shorter take or a lower fps, or ask the keeper of "
+    "This take needs more time than a job may use here. Send a shorter take or a lower fps, or ask the operator of "
     "this service to raise CAESURA_JOB_SECONDS.",
     setting="CAESURA_JOB_SECONDS",
 )

@@ -1,4 +1,4 @@
-"""How far an attempt is, told beside it: its work does not wait for Redis, and what nobody could read is not told."""
+"""Writes the progress of an attempt on a thread, so that the work never waits for Redis."""
 
 import threading
 from collections.abc import Callable
@@ -26,7 +26,7 @@ class ProgressReporter:
         self._thread.start()
 
     def report(self, stage: str, fraction: float) -> bool:
-        """Have it told, and answer whether the words so far were wanted. Raises what writing one has raised."""
+        """Queue a report; answer whether earlier ones found the attempt current. Raises what writing one raised."""
         with self._said:
             if self._fault is not None:
                 raise self._fault
@@ -55,7 +55,7 @@ class ProgressReporter:
                 self._said.wait_for(lambda: self._over, REPORT_SECONDS)
 
     def _next_report(self) -> tuple[str, float] | None:
-        """The newest word that was not told; None once there will be none."""
+        """The newest report that is not written yet; None after the last one."""
         with self._said:
             self._said.wait_for(lambda: self._over or self._word is not None)
             word, self._word = self._word, None

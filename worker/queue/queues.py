@@ -59,7 +59,7 @@ class TaskJob(Job):
         except DeserializationError:
             known = False
         if not known:
-            log.error("a job in Redis is no task of this project, and is not run: %r", self.id)
+            log.error("a job in Redis is not a task of this project and does not run: %r", self.id)
             raise NoSuchJobError(f"{self.id} is no task")
 
 

@@ -1,10 +1,19 @@
-"""Reading and changing what Redis holds of ours, a file for each kind. A change of several keys is one MULTI.
+"""Records in Redis, a file for each kind. A change of several keys is one MULTI.
 
-animations     uploads, and when each was used last
-analyses       what was computed of an upload, by the digest of what it was computed with
-segmentations  what was asked of an upload, how far it is, and its result; every change is told on its channel
-attempts       what the worker on a segmentation writes into it, as long as its attempt is the current one
-exports        files made of a result
+record_types    the records as frozen values
+redis_keys      the keys of the records
+animations      uploads, and when each was last used
+analyses        analyses of an upload, by the digest of their parameters
+segmentations   segmentations, their state and result; every change is published on their channel
+attempts        changes that the current attempt of a worker makes
+result_files    files made of a result
+revisions       revisions of a result
+async_records   the same records, read without blocking
+subscription    messages of Redis channels
+counters        what the workers count, for the metrics
+content_ids     ids made of content
+connection      the connection to Redis, and full disks
+layout_version  the version of the stored layout
 """
 
 import redis

@@ -57,8 +57,8 @@ def counter_field(name: str, **labels: str) -> str:
 
 def read_counters(stored: Mapping[Any, Any]) -> dict[str, list[tuple[dict[str, str], float]]]:
     """The hash as Redis answers it: the values of each name, with their labels."""
-    told: dict[str, list[tuple[dict[str, str], float]]] = {}
+    found: dict[str, list[tuple[dict[str, str], float]]] = {}
     for kept, value in stored.items():
         name, *labels = (kept.decode() if isinstance(kept, bytes) else kept).split("|")
-        told.setdefault(name, []).append((dict(label.split("=", 1) for label in labels), float(value)))
-    return told
+        found.setdefault(name, []).append((dict(label.split("=", 1) for label in labels), float(value)))
+    return found

@@ -24,7 +24,7 @@
 | caesura:exports:ID | set | the forms that were ever asked for |
 | caesura:worker:NAME | string, expires | the host of a warm worker that lives; RQ's sets say which queues it serves |
 | caesura:swept | string, expires | somebody looked lately for what is kept too long |
-| caesura:clock | hash | the time of the last look, and since when the clock has gone evenly; `caesura.worker.clock_check` |
+| caesura:clock | hash | when the clock was last checked, and since when it is steady; `worker/clock_check.py` |
 | caesura:deleted | string | something was deleted since Redis was last asked to rewrite its append-only file |
 | caesura:tally | hash | what workers have counted; `caesura.worker.records.counters` |
 | caesura:doubted | hash | keys of blobs that no record pointed to when it was looked last, each with since when |
@@ -33,7 +33,7 @@
 | caesura:key:DIGEST | string | KeyRecord, JSON |
 | caesura:session:DIGEST | string, expires | the digest of the key that was signed in with |
 | caesura:rate:DIGEST:ADDRESS | hash, expires | how many requests are left |
-| caesura:changed:ID | channel | told at every change of a segmentation or its exports |
+| caesura:changed:ID | channel | a message at every change of a segmentation or its exports |
 """
 
 from typing import Literal
@@ -136,5 +136,5 @@ def rate_key(digest: str, address: str) -> str:
 
 
 def channel(segmentation: str) -> str:
-    """Where changes of a segmentation are told."""
+    """The channel with the changes of a segmentation."""
     return f"caesura:changed:{segmentation}"

@@ -1,4 +1,4 @@
-"""Records of segmentations, with their results. Every change is one MULTI that also tells it on their channel."""
+"""Records of segmentations, with their results. Every change is one MULTI and is published on their channel."""
 
 import time
 from collections.abc import Callable

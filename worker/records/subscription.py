@@ -1,4 +1,4 @@
-"""What is told on Redis's channels, heard on one connection for everyone in this process who waits.
+"""Messages of Redis channels, received on one connection for all waiting requests of this process.
 
 A connection for each would be made anew for every wait, and there would be as many as event streams are open.
 """

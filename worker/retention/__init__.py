@@ -1,6 +1,6 @@
-"""What is kept too long, and how it goes.
+"""Deletion of what is too old.
 
-retention       the sweep: uploads and analyses since their last use, results since they were made
-deletion        blobs first, then the record that points to them
+sweep           the hourly sweep: uploads and analyses by their last use, results by their age
+deletion        deletion of blobs first, then of the record that points to them
 orphaned_blobs  blobs that no record points to
 """

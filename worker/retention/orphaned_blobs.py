@@ -1,4 +1,4 @@
-"""Blobs that no record points to: a process was killed after it kept one and before it said so, or while it deleted.
+"""Deletes blobs that no record points to: their process was killed before it wrote or after it deleted one.
 
 A blob is young for a while before it is pointed to, so it is forgotten only if it was in doubt at an earlier look too,
 long enough ago. Both times are told by the one who looks; no two clocks are compared.

@@ -1,4 +1,4 @@
-"""Keeping for so long and no longer: uploads and analyses since their last use, results since they were made."""
+"""The sweep: deletes uploads and analyses by their last use, and results by their age."""
 
 import logging
 import math
@@ -71,4 +71,6 @@ def rewrite_append_only_file(client: Redis) -> None:
         client.bgrewriteaof()
     except ResponseError as refused:  # another one is under way, or this Redis does not let us
         client.set(redis_keys.DELETED_KEY, b"1")
-        log.warning("Redis does not rewrite its append-only file now, and names of what was deleted stay: %s", refused)
+        log.warning(
+            "Redis does not rewrite its append-only file now, and the names of deleted data stay in it: %s", refused
+        )

@@ -1,4 +1,4 @@
-"""Room on the disk of the data folder: what is written to it leaves so many bytes free as its operator wants."""
+"""Free space on the disk of the data folder: every write leaves the bytes free that the operator asks for."""
 
 import errno
 import shutil
@@ -24,5 +24,5 @@ def check_disk_space(folder: Path, coming: int, stays_free: int) -> None:
 
 def storage_full(**where: str) -> StorageFull:
     """The refusal, for a disk that is full already too."""
-    detail = "The disk of the service has no room for this. Nothing was kept; tell its operator, or try again later."
+    detail = "The disk of the service is full. Nothing is stored; tell the operator, or try again later."
     return StorageFull("storage-full", detail, **where)

@@ -1,4 +1,4 @@
-"""Files on their way: written aside, held by a lock as long as somebody writes them, and cleared once nobody does.
+"""Temporary files: each is held by a lock while it is written, and deleted when no process holds it.
 
 A process that is killed leaves its file behind, but not its lock: the system gives that back. So a file that can be
 locked is nobody's, whatever the clock says and whichever container wrote it.

@@ -1,4 +1,4 @@
-"""What is drawn of a glTF: one take or a part of it, or all of them one after the other."""
+"""The frames of a glTF: one take, a part of it, or all takes one after the other."""
 
 import math
 from collections.abc import Callable
@@ -89,6 +89,8 @@ def join_all_takes(
 
 
 def _note_joined_takes(notices: Notices, chosen: list[ChosenTake], first: list[int]) -> None:
-    told = ", ".join(f"{take.name[:40]!r} at {frame}" for take, frame in zip(chosen[:SHOWN], first, strict=False))
+    begins = ", ".join(f"{take.name[:40]!r} at {frame}" for take, frame in zip(chosen[:SHOWN], first, strict=False))
     more = f", and {len(chosen) - SHOWN} more" if len(chosen) > SHOWN else ""
-    notices.add("takes-joined", f"All {len(chosen)} takes follow each other. They begin at these frames: {told}{more}.")
+    notices.add(
+        "takes-joined", f"All {len(chosen)} takes follow each other. They begin at these frames: {begins}{more}."
+    )

@@ -1,4 +1,4 @@
-"""Which of the file's animations is meant, and how long it is."""
+"""Which animation of a file is the take, and how long it is."""
 
 from dataclasses import dataclass
 

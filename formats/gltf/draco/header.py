@@ -1,4 +1,4 @@
-"""What a Draco stream promises before it is decoded (Draco bitstream specification 2.2, sections 2 to 4)."""
+"""The counts in the header of a Draco stream (Draco bitstream specification 2.2, sections 2 to 4)."""
 
 import struct
 

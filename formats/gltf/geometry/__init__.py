@@ -1,1 +1,8 @@
-"""What lies in the buffers of a glTF: accessors, and the primitives, skin weights and instances made of them."""
+"""The geometry in the buffers of a glTF.
+
+buffers       buffers and views of them
+accessors     arrays from accessors
+primitives    triangles and morph targets of a mesh
+skin_weights  joints and weights of each vertex
+instances     instances of a mesh
+"""

@@ -55,8 +55,10 @@ def read_primitive_headers(document: GltfDocument, accessors: Accessors, mesh: J
     kept = [outline for outline in found if outline is not None]
     counts = {len(outline.targets) for outline in kept} - {0}  # what has none simply stays as it is
     if len(counts) > 1:
-        told = " and ".join(map(str, sorted(counts)))
-        raise mesh.refusal(f"The primitives of a mesh need as many morph targets each, not {told}.", name="primitives")
+        numbers = " and ".join(map(str, sorted(counts)))
+        raise mesh.refusal(
+            f"The primitives of a mesh need as many morph targets each, not {numbers}.", name="primitives"
+        )
     return kept
 
 

@@ -1,1 +1,7 @@
-"""From sampled keys to vertices: nodes, skeleton, skins, then morphing and skinning block by block."""
+"""From sampled keys to vertices.
+
+nodes     the node graph
+skins     the joints and bind matrices of a skin
+skeleton  the nodes that move a mesh
+vertices  the vertices of any block of frames, morphed and skinned
+"""

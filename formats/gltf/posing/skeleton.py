@@ -1,4 +1,4 @@
-"""The nodes that move a figure, and what they do to the vertices bound to them."""
+"""The nodes that move a mesh, and the transform of each bone."""
 
 from dataclasses import dataclass
 

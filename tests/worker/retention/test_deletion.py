@@ -118,7 +118,7 @@ def test_names_of_what_was_deleted_leave_redis_with_the_next_sweep(idle, take):
 
 
 def test_a_redis_that_may_not_be_told_to_rewrite_is_asked_again(idle, take, caplog):
-    """A managed one, or one whose keeper forbids the command: the sweep goes on, says so, and asks the next time."""
+    """A managed one, or one whose operator forbids the command: the sweep goes on, says so, and asks the next time."""
     delete_animation(idle.jobs, idle.blobs, idle.upload(take))
     idle.redis.execute_command("ACL", "SETUSER", "default", "-bgrewriteaof")
     sweep_by_clock(idle.jobs, idle.blobs, 1e9, 1e9, time.time())
