@@ -8,6 +8,8 @@ import { motionColour } from '../palette.js';
 const LATE = 250; // ms after which the panel says that it waits for blocks
 const SOON = 1500; // ms until the panel asks again whether the figure is prepared
 
+const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i; // renderers without a graphics card
+
 let scene = null; // one for the page: a browser gives out few WebGL contexts
 
 export class FigurePanel {
@@ -30,11 +32,11 @@ export class FigurePanel {
     try {
       this.showNote('Loading the figure …');
       await nextPaint(); // the person sees all else before the figure keeps the page busy
-      const graphics = startGraphics(); // takes long, so it runs beside all else
+      const probe = probeRenderer(); // takes long, so it runs beside all else
       const download = asked.then((viewer) => downloadFigure(viewer, this.#signal, (share) => this.#showProgress(share)));
-      const [viewer, files, { FigureScene }] = await Promise.all([asked, download, import('./scene.js'), graphics]);
+      const [viewer, files, { FigureScene }, renderer] = await Promise.all([asked, download, import('./scene.js'), probe]);
       if (this.#signal.aborted) return;
-      scene ||= new FigureScene($('figure'));
+      scene ||= new FigureScene($('figure'), SOFTWARE.test(renderer));
       await scene.show(viewer, files, this.#signal);
       if (this.#signal.aborted) return;
       this.#shown = true;
@@ -116,13 +118,13 @@ export class FigurePanel {
   }
 }
 
-let started = null;
+let renderer = null;
 
-/** Have a worker start the browser's graphics, once. */
-function startGraphics() {
-  started ??= new Promise((done) => {
-    const worker = new Worker(new URL('./webgl_start.js', import.meta.url));
-    worker.onmessage = worker.onerror = () => { worker.terminate(); done(); };
+/** Have a worker start WebGL, once; resolves to the name of the renderer, or to nothing if the worker fails. */
+function probeRenderer() {
+  renderer ??= new Promise((done) => {
+    const worker = new Worker(new URL('./webgl_probe.js', import.meta.url));
+    worker.onmessage = worker.onerror = ({ data }) => { worker.terminate(); done(data); };
   });
-  return started;
+  return renderer;
 }

@@ -14,11 +14,12 @@ export class FigureScene {
   #renderer; #scene = new Scene(); #camera; #floor = new Floor(); #light = new Light(); #requested = false;
   #middle = new Vector3(); #poses = []; #size = { width: 1, height: 1 };
 
-  constructor(canvas) {
+  /** `software`: the processor draws, so the picture has no anti-aliasing and one pixel for each CSS pixel. */
+  constructor(canvas, software) {
     this.canvas = canvas;
     this.figure = null;
     this.strain = new StrainShading();
-    this.#renderer = rendererOn(canvas);
+    this.#renderer = rendererOn(canvas, software);
     this.#camera = new FigureCamera(canvas, () => this.draw());
     this.#scene.add(this.#light.object, this.#camera.camera, this.#floor.object);
     onResize(canvas.parentElement, () => this.#fit());
@@ -135,13 +136,11 @@ export class FigureScene {
   }
 }
 
-/** A renderer in WebGL, by the graphics card or by the browser's own software. */
-function rendererOn(canvas) {
-  const ratio = Math.min(devicePixelRatio, FINEST);
-  const context = canvas.getContext('webgl2', { alpha: true, antialias: ratio < FINEST });
+function rendererOn(canvas, software) {
+  const context = canvas.getContext('webgl2', { alpha: true, antialias: !software });
   if (!context) throw new Error('this browser does not offer WebGL 2. Everything else on this page works.');
   const renderer = new WebGLRenderer({ canvas, context });
-  renderer.setPixelRatio(ratio);
+  renderer.setPixelRatio(software ? 1 : Math.min(devicePixelRatio, FINEST));
   return renderer;
 }
 
