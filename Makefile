@@ -7,7 +7,7 @@ READY := .venv/ready-$(shell pwd | cksum | cut -d' ' -f1)
 LOCKED := pip install --quiet --disable-pip-version-check
 # For every platform and Python at once, with digests and without the name of any registry.
 RESOLVE := uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --quiet
-COMPILE := $(RESOLVE) pyproject.toml
+COMPILE := $(RESOLVE) pyproject.toml --extra service --extra s3
 
 .PHONY: chaos help setup demo test lint audit bench fuzz dist lock clean
 
@@ -50,7 +50,7 @@ lint: setup
 	$(BIN)/lint-imports --no-logo
 
 audit: setup .venv/audit/ready
-	$(BIN)/ruff check --select S core samples service worker
+	$(BIN)/ruff check --select S caesura core formats samples service worker
 	$(BIN)/python tools/audit.py
 
 # Apart: pip-audit brings thirty packages that nothing else needs.

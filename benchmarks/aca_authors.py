@@ -4,7 +4,8 @@
 
 Two trials of CMU subject 86, 120 frames a second, the number of motions told, the parameters their program has. Frame
 accuracy under the best matching of labels, on reduced frames as they count; mean and standard deviation over seeds. A
-row `as measured` has the lengths of first segments as their program takes them (see `core.alignment.kernels.pure`),
+row `as measured` has the lengths of first segments as their program takes them
+(see `caesura.core.kernels.alignment.pure_segments`),
 the row above as their papers say, which is what `method=aca` and `method=haca` do. Writes its table into
 docs/accuracy.md, or with `--print` not.
 """
@@ -19,20 +20,20 @@ from threadpoolctl import threadpool_limits
 
 from benchmarks.joint_angles import joint_angles, true_motions
 from benchmarks.report import ACCURACY, write_section
-from core.agreement import frame_accuracy
-from core.alignment.cluster_analysis import aligned
-from core.alignment.frame_kernel import frame_kernel
-from core.alignment.hierarchy import hierarchy
-from core.alignment.initial import Initial
-from core.alignment.reduction import reduction
-from core.alignment.segments import Lengths
-from core.alignment.short_runs import without_short_runs
-from core.alignment.spectral_groups import spectral_groups
+from caesura.core.agreement import frame_accuracy
+from caesura.core.methods.alignment.cluster_analysis import cluster_by_alignment
+from caesura.core.methods.alignment.frame_kernel import frame_kernel
+from caesura.core.methods.alignment.hierarchy import cluster_in_two_levels
+from caesura.core.methods.alignment.initial_segmentation import InitialSegmentation
+from caesura.core.methods.alignment.segments import SegmentLengths
+from caesura.core.methods.alignment.short_runs import remove_short_runs
+from caesura.core.methods.alignment.spectral_clustering import cluster_spectrally
+from caesura.core.methods.alignment.temporal_reduction import reduce_frames
 
 TRIALS = ("86_01", "86_09")
 REDUCED_BY = 5
-SEGMENTS = Lengths(32, 60)
-MOVES, ABOVE = Lengths(8, 10), Lengths(4, 6)
+SEGMENTS = SegmentLengths(32, 60)
+MOVES, ABOVE = SegmentLengths(8, 10), SegmentLengths(4, 6)
 
 Kernel = Float[np.ndarray, "samples samples"]
 Labels = Int[np.ndarray, "samples"]
@@ -48,15 +49,15 @@ AUTHORS: dict[str, tuple[tuple[float, float | None], ...]] = {
 
 def spectral(kernel: Kernel, motions: int, seed: int) -> Labels:
     """Spectral clustering, no run below 32 samples."""
-    return without_short_runs(spectral_groups(kernel, motions, seed), SEGMENTS.shortest)
+    return remove_short_runs(cluster_spectrally(kernel, motions, seed), SEGMENTS.shortest)
 
 
 def aca(as_measured: bool) -> Method:
     """Segments of 32 to 60 samples, one initial segmentation."""
 
     def divide(kernel: Kernel, motions: int, seed: int) -> Labels:
-        first = Initial.of(kernel, np.ones(len(kernel)), motions, SEGMENTS, as_measured=as_measured)
-        return aligned(kernel, first.weights, first.start(seed), first.lengths.longest).segments.per_sample
+        first = InitialSegmentation.of(kernel, np.ones(len(kernel)), motions, SEGMENTS, as_measured=as_measured)
+        return cluster_by_alignment(kernel, first.weights, first.start(seed), first.lengths.longest).segments.per_sample
 
     return divide
 
@@ -64,7 +65,7 @@ def aca(as_measured: bool) -> Method:
 def haca(as_measured: bool) -> Method:
     """Moves of 8 to 10 samples, motions of 4 to 6 moves."""
     return lambda kernel, motions, seed: (
-        hierarchy(kernel, motions, MOVES, ABOVE, seed, as_measured=as_measured).per_sample
+        cluster_in_two_levels(kernel, motions, MOVES, ABOVE, seed, as_measured=as_measured).per_sample
     )
 
 
@@ -81,7 +82,7 @@ def accuracies(folder: Path, trial: str, seeds: int) -> Iterator[tuple[tuple[str
     """The accuracy of every method for every seed."""
     features = joint_angles((folder / f"{trial}.amc").read_text())
     truth = true_motions(folder / "mocap.txt", trial)
-    reduced = [reduction(features, REDUCED_BY, seed) for seed in range(seeds)]
+    reduced = [reduce_frames(features, REDUCED_BY, seed) for seed in range(seeds)]
     kernels = [frame_kernel(blocks.of(features)) for blocks in reduced]
     # A cut inside a block counts from the block's start: so a block is of the motion that its last frame is of.
     truths = [truth[blocks.bounds[1:] - 1] for blocks in reduced]

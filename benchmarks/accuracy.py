@@ -20,10 +20,10 @@ from benchmarks.report import ACCURACY, write_section
 from benchmarks.scores import Row, Scores
 from benchmarks.sequences import Known, sequences
 from benchmarks.table import HEAD, line, means, promises
-from core.errors import ParameterError
-from core.methods import METHODS
-from core.parameters import TOLD_MOTIONS, Parameters
-from core.pipeline import cut
+from caesura.core.errors import ParameterError
+from caesura.core.methods.table import METHODS
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import cut
 
 RANDOM = frozenset({"joint-entropy", "spectral", "aca", "haca"})
 PAPER = "The paper's own figure 7, mean of 14 trials, K told: joint-entropy 0.903, SC 0.861, ACA 0.942, HACA 0.950."
@@ -34,7 +34,7 @@ FEATURES = {"joint-entropy": "strain", "clasp": "leading", "fluss": "leading"}
 def rows(known: Known, methods: list[str], seeds: int) -> Iterator[Row]:
     """Each method on one take; a method that refuses the take has no row."""
     for method in methods:
-        for told in ("K",) if method in TOLD_MOTIONS else ("K", "auto"):
+        for told in ("K",) if METHODS[method].needs_motions else ("K", "auto"):
             asked = known.motions if told == "K" else "auto"
             found = []
             for seed in range(seeds if method in RANDOM else 1):

@@ -6,8 +6,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from benchmarks.acclaim import Acclaim
-from samples.surface import Limb, Surface, skin
-from samples.weights import heat_weights
+from caesura.samples.surface import Limb, Surface, skin
+from caesura.samples.weights import heat_weights
 
 CELL = 0.0315  # metres: about 5,700 triangles
 SHARPNESS = 0.4  # flesh gives over somewhat more than the thickness of the limb

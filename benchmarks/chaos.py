@@ -1,8 +1,10 @@
 """What is lost when everything is killed: nothing, or this command says what.
 
-`python -m benchmarks.chaos` has 8 clients send 200 takes twice: to a service that is left in peace, and to one whose
-work-horses, workers, Redis, web process and supervisor get SIGKILL at random (seeded). Then it looks for what is lost,
-stuck, done twice, different, or left behind. Writes docs/operations.md; the exit status is 1 where anything is wrong.
+`python -m benchmarks.chaos` has 8 clients send 200 takes and fetch their clips twice: from a service that is left in
+peace, and from one whose work-horses, workers, Redis, web process and supervisor get SIGKILL at random (seeded), and
+whose clock jumps, and whose disk fills to the last byte and empties again, where this system lets us mount one. Then
+it looks for what is lost, stuck, done twice, different, or left behind. Writes docs/operations.md; the exit status is 1
+where anything is wrong.
 """
 
 import argparse
@@ -14,13 +16,14 @@ import sys
 import time
 from collections import Counter
 from concurrent.futures import Future, ProcessPoolExecutor, wait
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from multiprocessing import get_context
 from pathlib import Path
 from tempfile import mkdtemp
 
 from benchmarks import chaos_client
 from benchmarks.chaos_client import Seen
+from benchmarks.chaos_disk import SmallDisk, small_disk
 from benchmarks.chaos_house import House
 from benchmarks.chaos_takes import takes
 from benchmarks.chaos_verdict import Verdict, verdict
@@ -31,7 +34,11 @@ CLIENTS = 8
 LONGEST_SECONDS = 900.0
 BETWEEN_SECONDS = (0.3, 2.5)
 MOST_KILLS = 80
-WEIGHTS = {"work-horse": 10, "worker": 4, "web": 4, "Redis": 3, "pool": 2, "supervisor": 2}
+DISK_BYTES = 5 * 2**20  # for each take
+FULL_SECONDS = (0.5, 4.0)
+FAULTS = ("disk", "clock")
+"""Faults that are no process to kill."""
+WEIGHTS = {"work-horse": 10, "worker": 4, "web": 4, "Redis": 3, "pool": 2, "supervisor": 2, "disk": 3, "clock": 4}
 
 
 def main() -> None:
@@ -44,17 +51,22 @@ def main() -> None:
     chosen = arguments.parse_args()
     work = takes(chosen.jobs)
     folder = Path(mkdtemp(prefix="caesura-chaos-"))
-    try:
+    with ExitStack() as opened:
+        opened.callback(shutil.rmtree, folder)
+        disk: SmallDisk | None = None
+        with suppress(PermissionError):
+            disk = opened.enter_context(small_disk(folder / "fire", len(work) * DISK_BYTES))
         quiet, quiet_verdict, quiet_seconds, _ = _run(folder / "quiet", work, None)
-        fire, found, seconds, kills = _run(folder / "fire", work, random.Random(chosen.seed), quiet)
-    finally:
-        if not chosen.keep:
-            shutil.rmtree(folder)
+        fire, found, seconds, kills = _run(folder / "fire", work, random.Random(chosen.seed), quiet, disk)
+        if chosen.keep:
+            opened.pop_all()
     lines = [
         "| under fire | |",
         "|---|---|",
         f"| takes, clients, seed | {chosen.jobs}, {CLIENTS}, {chosen.seed} |",
-        f"| killed | {', '.join(f'{count} {name}' for name, count in kills.most_common())} |",
+        f"| killed | {', '.join(f'{count} {name}' for name, count in kills.most_common() if name not in FAULTS)} |",
+        f"| times the disk was full | {kills['disk']} |",
+        f"| times the clock jumped, by hours or weeks | {kills['clock']} |",
         *(f"| {name} | {count} |" for name, count in sorted(fire.tally.items())),
         *found.rows(),
         f"| in peace, under fire | {quiet_seconds:.0f} s, {seconds:.0f} s |",
@@ -72,10 +84,14 @@ def main() -> None:
 
 
 def _run(
-    folder: Path, work: list[bytes], chance: random.Random | None, quiet: Seen | None = None
+    folder: Path,
+    work: list[bytes],
+    chance: random.Random | None,
+    quiet: Seen | None = None,
+    disk: SmallDisk | None = None,
 ) -> tuple[Seen, Verdict, float, Counter[str]]:
     """One installation from its first start to its last process: what was seen, what is wrong, and how long it took."""
-    folder.mkdir()
+    folder.mkdir(exist_ok=True)
     house = House(folder)
     house.until_ready()
     began = time.monotonic()
@@ -84,14 +100,14 @@ def _run(
     with ProcessPoolExecutor(CLIENTS, mp_context=get_context("spawn")) as clients:
         parts = [numbered[first::CLIENTS] for first in range(CLIENTS)]
         running = [clients.submit(chaos_client.run, house.url, part, deadline) for part in parts]
-        kills = Counter[str]() if chance is None else _fire(house, chance, running)
+        kills = Counter[str]() if chance is None else _fire(house, chance, running, disk)
         seen = _together([one.result() for one in running])
     seconds = time.monotonic() - began
     return seen, verdict(house, len(work), seen, quiet), seconds, kills
 
 
-def _fire(house: House, chance: random.Random, running: list["Future[Seen]"]) -> Counter[str]:
-    """Kill until the clients have all they want, or it is enough; how many of which.
+def _fire(house: House, chance: random.Random, running: list["Future[Seen]"], disk: SmallDisk | None) -> Counter[str]:
+    """Kill and fill until the clients have all they want, or it is enough; how many of which.
 
     Only while there are workers: who is killed faster than it can start shows nothing.
     """
@@ -101,7 +117,20 @@ def _fire(house: House, chance: random.Random, running: list["Future[Seen]"]) ->
         there = {name: pids for name, pids in house.parts().items() if pids and name in WEIGHTS}
         if "worker" not in there or kills.total() >= MOST_KILLS:
             continue
+        there["clock"] = []
+        if disk is not None:
+            there["disk"] = []
         name = chance.choices(list(there), [WEIGHTS[name] for name in there])[0]
+        if disk is not None and name == "disk":
+            disk.fill()
+            time.sleep(chance.uniform(*FULL_SECONDS))
+            disk.empty()
+            kills[name] += 1
+            continue
+        if name == "clock":
+            house.clock.jump(house.jobs().redis, chance)
+            kills[name] += 1
+            continue
         with suppress(ProcessLookupError):
             os.kill(chance.choice(there[name]), signal.SIGKILL)
             kills[name] += 1
@@ -113,6 +142,7 @@ def _together(parts: list[Seen]) -> Seen:
     seen = Seen()
     for part in parts:
         seen.results |= part.results
+        seen.clips |= part.clips
         seen.lost += part.lost
         seen.wrong += part.wrong
         seen.tally += part.tally

@@ -3,6 +3,7 @@
 A connection that breaks, 503 and 507 mean: try again. What was accepted (200 or 202) must be there ever after.
 """
 
+import hashlib
 import time
 from collections import Counter
 from collections.abc import Iterator
@@ -16,9 +17,13 @@ PAUSE_SECONDS = 0.2
 
 @dataclass
 class Seen:
-    """What one client saw: the result and its tag by the number of the take, what was lost, and how it went."""
+    """What one client saw, by the number of the take: the result and its tag, the digest of its clips; what was lost,
+
+    and how it went.
+    """
 
     results: dict[int, tuple[str, str, bytes]] = field(default_factory=dict)
+    clips: dict[int, str] = field(default_factory=dict)
     lost: list[str] = field(default_factory=list)
     wrong: list[str] = field(default_factory=list)
     tally: Counter[str] = field(default_factory=Counter)
@@ -66,6 +71,7 @@ class _Client:
                 if self.submit(take) != identifier:
                     self._seen.wrong.append(f"{identifier}: posted again it is another")
             elif status == "done" and self._keep(number, identifier):
+                self._keep_clips(number, identifier)
                 return
             elif answer.status_code not in {200, *TRY_AGAIN}:
                 self._seen.wrong.append(f"GET: {answer.status_code} {answer.text[:200]}")
@@ -81,6 +87,17 @@ class _Client:
                 return False
         return False
 
+    def _keep_clips(self, number: int, identifier: str) -> None:
+        """A worker makes them when they are asked for."""
+        path = f"/v1/segmentations/{identifier}/clips"
+        for answer in self._answers("GET", path, headers={"Prefer": "wait=2"}):
+            if answer.status_code == httpx.codes.OK:
+                self._seen.clips[number] = hashlib.sha256(answer.content).hexdigest()
+                return
+            if answer.status_code not in {202, *TRY_AGAIN}:
+                self._seen.wrong.append(f"clips: {answer.status_code} {answer.text[:200]}")
+                return
+
     def _answers(self, method: str, path: str, **request: object) -> Iterator[httpx.Response]:
         """Answers to the same request, one after the other, until time runs out; broken connections are counted."""
         while time.monotonic() < self._deadline:
@@ -90,7 +107,7 @@ class _Client:
                 self._seen.tally["connections broken"] += 1
             else:
                 if answer.status_code in TRY_AGAIN:
-                    self._seen.tally["told to try again (503)"] += 1
+                    self._seen.tally["told to try again (503, 507)"] += 1
                 yield answer
                 if answer.status_code not in TRY_AGAIN:
                     continue

@@ -15,13 +15,15 @@ from pathlib import Path
 
 import httpx
 
+from benchmarks.chaos_clock import JumpingClock
 from benchmarks.processes import PROC
-from worker.blobs import Blobs
-from worker.jobs import Jobs
-from worker.settings import WorkerSettings
+from caesura.worker.queue.jobs import Jobs
+from caesura.worker.settings import WorkerSettings
+from caesura.worker.store.blobs import Blobs
 
-READY_SECONDS = 90
+READY_SECONDS = 300  # the first start compiles the kernels
 STOP_SECONDS = 60
+MIN_FREE_BYTES = 2**24
 SECRET = "the same ids in every run"
 
 
@@ -32,6 +34,7 @@ class House:
         self.folder = folder
         self.settings = WorkerSettings(data_dir=folder, redis_url="", secret=SECRET)
         self.url = f"http://127.0.0.1:{_free_port()}"
+        self.clock = JumpingClock(folder)
         self.lives = 0
         self._process: subprocess.Popen[bytes] | None = None
 
@@ -40,10 +43,16 @@ class House:
         if self._process is not None and self._process.poll() is None:
             return
         kept = {name: value for name, value in os.environ.items() if name != "REDIS_URL"}
-        environment = {**kept, "CAESURA_DATA_DIR": str(self.folder), "CAESURA_SECRET": SECRET}
+        environment = {
+            **kept,
+            "CAESURA_DATA_DIR": str(self.folder),
+            "CAESURA_SECRET": SECRET,
+            "CAESURA_MIN_FREE_BYTES": str(MIN_FREE_BYTES),
+            **self.clock.environment,
+        }
         with (self.folder / "log").open("ab") as log:
             self._process = subprocess.Popen(
-                [sys.executable, "-m", "service.cli", "serve", "--port", self.url.rpartition(":")[2]],
+                [sys.executable, "-m", "caesura.service.commands.cli", "serve", "--port", self.url.rpartition(":")[2]],
                 env=environment,
                 stdin=subprocess.DEVNULL,
                 stdout=log,
@@ -100,7 +109,12 @@ class House:
         return Blobs.open(self.settings.store_location, self.settings.scratch_dir)
 
 
-WORDS = {"service.web": "web", "-m worker": "pool", "valkey-server": "Redis", "redis-server": "Redis"}
+WORDS = {
+    "caesura.service.process.web": "web",
+    "-m caesura.worker": "pool",
+    "valkey-server": "Redis",
+    "redis-server": "Redis",
+}
 
 
 def _children(pid: int) -> list[int]:

@@ -8,8 +8,8 @@ import httpx
 
 from benchmarks.chaos_client import Seen
 from benchmarks.chaos_house import House
-from worker.jobs import Jobs
-from worker.orphans import forget_orphans
+from caesura.worker.queue.jobs import Jobs
+from caesura.worker.retention.orphaned_blobs import delete_orphaned_blobs
 
 QUIET_SECONDS = 300.0  # until the small jobs are done that nobody waits for
 
@@ -42,6 +42,7 @@ def verdict(house: House, expected: int, seen: Seen, quiet: Seen | None) -> Verd
     house.until_ready()
     jobs, said = house.jobs(), Verdict()
     said.counts["accounted for"] = len(seen.results)
+    said.counts["clips fetched"] = len(seen.clips)
     said.none("lost", seen.lost)
     said.none("stuck", _stuck(jobs, expected, seen))
     said.none("duplicated", _duplicated(house, jobs, expected, seen))
@@ -64,6 +65,8 @@ def _stuck(jobs: Jobs, expected: int, seen: Seen) -> list[str]:
         time.sleep(0.2)
     live = [f"{record.id} is {record.status}" for record in jobs.records.segmentations.live()]
     queued = [f"{depth} jobs wait on {name}" for name, depth in jobs.queues.depths().items() if depth]
+    missing = max(len(seen.results) - len(seen.clips) - len(seen.wrong), 0)
+    live += ["clips were never made"] * missing
     missing = expected - len(seen.results) - len(seen.lost) - len(seen.wrong)
     return [*live, *queued, *(["a take was never done"] * max(missing, 0))]
 
@@ -85,19 +88,21 @@ def _duplicated(house: House, jobs: Jobs, expected: int, seen: Seen) -> list[str
 
 def _different(seen: Seen, quiet: Seen) -> list[str]:
     """Results that are not, byte for byte, those of the run that was left in peace."""
-    return [
+    results = [
         f"take {number}"
         for number, (identifier, _, content) in seen.results.items()
         if number in quiet.results and (identifier, content) != (quiet.results[number][0], quiet.results[number][2])
     ]
+    clips = quiet.clips
+    return [*results, *(f"clips of take {n}" for n, found in seen.clips.items() if clips.get(n, found) != found)]
 
 
 def _leftover(house: House, jobs: Jobs, said: Verdict) -> list[str]:
     """Files that nothing needs, once the sweep has looked twice."""
     blobs = house.blobs()
     before = dict(blobs.all())
-    forget_orphans(jobs.records, blobs, 0.0)
-    forget_orphans(jobs.records, blobs, 0.0)
+    delete_orphaned_blobs(jobs.records, blobs, 0.0)
+    delete_orphaned_blobs(jobs.records, blobs, 0.0)
     kept = dict(blobs.all())
     said.swept = len(before) - len(kept)
     stored = {str(path.relative_to(house.folder / "blobs")) for path in _files(house.folder / "blobs")}

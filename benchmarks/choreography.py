@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from samples.body import body
-from samples.model import rigid_glb, smooth_glb
-from samples.motions import PAIRED, Motion
-from samples.parts import parts
-from samples.repertoire import MOTIONS, STILL, T_POSE
-from samples.take import RATE, Part, Sample, perform
+from caesura.samples.body import body
+from caesura.samples.model import rigid_glb, smooth_glb
+from caesura.samples.motions import PAIRED, Motion
+from caesura.samples.parts import parts
+from caesura.samples.repertoire import MOTIONS, STILL, T_POSE
+from caesura.samples.take import RATE, Part, Sample, perform
 
 SECONDS = (3.5, 10.0)  # of a segment
 

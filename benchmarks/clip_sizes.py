@@ -15,13 +15,13 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from core.document import Segment, SegmentationDocument, Source, motion_name
-from core.errors import CaesuraError
-from core.formats.clips.options import ClipOptions
-from core.formats.clips.write import write_clips
-from core.formats.read import read_animation
-from core.limits import Limits
-from core.parameters import Parameters
+from caesura.core.document import Segment, SegmentationDocument, Source, motion_name
+from caesura.core.errors import CaesuraError
+from caesura.core.limits import Limits
+from caesura.core.parameters import Parameters
+from caesura.formats.clips.clip_options import ClipOptions
+from caesura.formats.clips.write import write_clips
+from caesura.formats.read import read_animation
 
 CUTS = (0.21, 0.48, 0.77)
 """Shares of a take at which it is cut; of the takes whose truth is known, that is where they are cut."""

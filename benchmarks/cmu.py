@@ -9,7 +9,7 @@ from jaxtyping import Float, Int
 
 from benchmarks.acclaim import Acclaim, read_motion, read_skeleton
 from benchmarks.body import SHARPNESS, Body, body
-from core.animation import Animation, Take
+from caesura.core.animation import Animation, Take
 
 STEP = 4
 RATE = 30.0

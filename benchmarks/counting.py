@@ -17,10 +17,10 @@ import numpy as np
 from benchmarks.joining import joined
 from benchmarks.report import ACCURACY, write_section
 from benchmarks.sequences import Known, kept_back
-from core.agreement import frame_accuracy
-from core.parameters import Parameters
-from core.pipeline import cut
-from samples.session import long_session
+from caesura.core.agreement import frame_accuracy
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import cut
+from caesura.samples.session import long_session
 
 COUNTS = (3, 8, 15, 30)
 FIRST_SEED = 401

@@ -10,9 +10,9 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial.transform import Rotation
 
-from core.formats.gltf.writer import Channel, GlbWriter, Primitive
-from samples.surface import Limb, skin
-from samples.weights import heat_weights, strongest
+from caesura.formats.gltf.writer import Channel, GlbWriter, Primitive
+from caesura.samples.surface import Limb, skin
+from caesura.samples.weights import heat_weights, strongest
 
 RATE = 30.0
 SECONDS = (0.7, 2.6)  # of one cycle

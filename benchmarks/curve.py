@@ -7,16 +7,16 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float
 
-from core.animation import Animation
-from core.blocks import blocks_of, frames_per_block
-from core.body import NO_PATCHES, Body
-from core.codes import CODES
-from core.drawing import draw
-from core.energy import energy_curve, window_frames
-from core.parameters import Parameters
-from core.pipeline import CODES_BYTES
-from core.rest import rest_shape
-from core.survey import Survey, survey
+from caesura.core.animation import Animation
+from caesura.core.block_pass.measured_body import NO_PATCHES, MeasuredBody
+from caesura.core.block_pass.quantisation import CODES
+from caesura.core.block_pass.rest_pose import compute_rest_pose
+from caesura.core.block_pass.vertex_pass import PassResult, run_block_pass
+from caesura.core.energy.energy_curve import compute_energy_curve, frames_per_window
+from caesura.core.frames.blocks import frames_per_block, split_into_blocks
+from caesura.core.frames.sampled_frames import read_vertices
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import CODES_BYTES
 
 LEVELS = 10
 
@@ -30,12 +30,12 @@ class Curve:
     memory_bytes: int = CODES_BYTES
 
     @cached_property
-    def whole(self) -> Body:
+    def whole(self) -> MeasuredBody:
         """All that the pipeline measures."""
-        return Body.of(self.animation, rest_shape(self.animation, "bind"), Parameters())[0]
+        return MeasuredBody.of(self.animation, compute_rest_pose(self.animation, "bind"), Parameters())[0]
 
     @cached_property
-    def bare(self) -> Body:
+    def bare(self) -> MeasuredBody:
         """Strain, and nothing else."""
         pairs = self.whole.pairs
         none = replace(pairs, first=pairs.first[:0], second=pairs.second[:0], at_rest=pairs.at_rest[:0])
@@ -44,43 +44,42 @@ class Curve:
     @property
     def window(self) -> int:
         """Frames of a window."""
-        return window_frames("modified", Parameters().window_seconds, self.animation.frame_rate)
+        return frames_per_window("modified", Parameters().window_seconds, self.animation.frame_rate)
 
-    def surveyed(self) -> Survey:
+    def surveyed(self) -> PassResult:
         """The pass over the vertices."""
         memory = self.memory_bytes
-        return survey(self.animation, self.bare, Parameters(), threads=self.threads, memory_bytes=memory)
+        return run_block_pass(self.animation, self.bare, Parameters(), threads=self.threads, memory_bytes=memory)
 
-    def scale(self, take: Survey) -> float:
+    def scale(self, take: PassResult) -> float:
         """The strain that counts as 1."""
         return take.scale(Parameters().normalize)
 
     def energy(self) -> Float[np.ndarray, "frames"]:
         """The curve."""
         take = self.surveyed()
-        exceedances = take.exceedances(self.scale(take), LEVELS)
-        columns = take.surveyor.body.surface.columns
-        return energy_curve(exceedances, self.animation.frames, self.window, columns, take.threads)
+        bins = take.bins(self.scale(take), LEVELS)
+        return compute_energy_curve(bins, self.animation.frames, self.window, LEVELS, take.threads)
 
     def stages(self) -> dict[str, Callable[[], object]]:
         """Each step of a whole analysis's passes by itself, over the whole take, on one thread."""
         take, body = self.surveyed(), self.whole
-        blocks = blocks_of(self.animation.frames, frames_per_block(self.animation.vertex_count))
+        blocks = split_into_blocks(self.animation.frames, frames_per_block(self.animation.vertex_count))
         scale, surface = self.scale(take), body.surface
-        exceedances = list(take.exceedances(scale, LEVELS))
+        bins = list(take.bins(scale, LEVELS))
         drawn = [self.animation.vertices(*block) for block in blocks]
-        histogram, noise, floor = np.zeros(CODES, np.int64), take.surveyor.noise, take.surveyor.floor
+        histogram, noise, floor = np.zeros(CODES, np.int64), take.block_pass.noise, take.block_pass.floor
         columns, tile = max(((c, t.copy()) for c, t in surface.tiles(drawn[0])), key=lambda pair: pair[1].size)
-        codes, means = np.empty((tile.shape[1], take.surveyor.row), np.uint16), body.patches.empty(len(drawn[0]))
+        codes, means = np.empty((tile.shape[1], surface.columns), np.uint16), body.patches.empty(len(drawn[0]))
         times = range(self.animation.frames * surface.columns // tile.size)
 
         def code_and_count() -> None:
             for _ in times:
-                take.surveyor.coding.read(tile, noise[columns], floor, histogram)
-                take.surveyor.coding.turn(tile, codes, columns.start)
+                take.block_pass.coding.count(tile, noise[columns], floor, histogram)
+                take.block_pass.coding.write(tile, codes, columns.start)
 
-        def exceed() -> None:
-            for _ in take.exceedances(scale, LEVELS):
+        def look_up_bins() -> None:
+            for _ in take.bins(scale, LEVELS):
                 pass
 
         def means_on_patches() -> None:
@@ -88,13 +87,13 @@ class Curve:
                 body.patches.add(columns, tile, means)
 
         return {
-            "check that every coordinate is a number": lambda: [draw(self.animation, block) for block in blocks],
+            "check that every coordinate is a number": lambda: [
+                read_vertices(self.animation, block) for block in blocks
+            ],
             "gather vertices, strain": lambda: [0 for vertices in drawn for _ in surface.tiles(vertices)],
             "code, count codes": code_and_count,
-            "exceedances": exceed,
-            "joint counts, entropy": lambda: energy_curve(
-                exceedances, self.animation.frames, self.window, surface.columns
-            ),
+            "bins": look_up_bins,
+            "joint counts, entropy": lambda: compute_energy_curve(bins, self.animation.frames, self.window, LEVELS),
             "means on patches": means_on_patches,
             "pair distances": lambda: [body.pairs.measure(vertices) for vertices in drawn],
         }

@@ -18,9 +18,9 @@ from jaxtyping import Bool, Float
 
 from benchmarks.report import ACCURACY, write_section
 from benchmarks.sequences import Known, kept_back
-from core.agreement import cuts_of
-from core.parameters import Parameters
-from core.pipeline import cut
+from caesura.core.agreement import cut_frames
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import cut
 
 FIRST_SEED = 1301
 FIFTH = 0.2
@@ -38,7 +38,7 @@ Judged = tuple[Float[np.ndarray, "cuts"], Float[np.ndarray, "cuts"]]
 def judged(known: Known) -> Judged:
     """Every cut of a take."""
     found = cut(known.analysis, Parameters())
-    apart = np.abs(found.cuts[:, None] - cuts_of(known.truth)[None]).min(axis=1, initial=known.analysis.frames)
+    apart = np.abs(found.cuts[:, None] - cut_frames(known.truth)[None]).min(axis=1, initial=known.analysis.frames)
     return found.confidence, apart / known.analysis.frame_rate
 
 

@@ -7,8 +7,8 @@ import numpy as np
 from jaxtyping import Int
 
 from benchmarks.cmu import Annotation
-from core.agreement import cuts_of
-from core.segmentation import Segmentation
+from caesura.core.agreement import cut_frames
+from caesura.core.segmentation import Segmentation
 
 WIDTH, CURVE, BAR, GAP, LEFT = 960, 170, 26, 10, 70  # pixels
 COLOURS = ("#4477aa", "#ccbb44", "#ee6677", "#228833", "#66ccee", "#aa3377")  # Tol's bright scheme, colour-blind safe
@@ -54,7 +54,7 @@ def bars(labelled: Sequence[tuple[str, str, Labels, Labels]]) -> str:
         parts.append(_text(LEFT_OF_BARS, y + 13, take, "start"))
         y += 18
         for name, labels in (("truth", truth), *((row[1], row[3]) for row in of_take)):
-            bounds = [0, *cuts_of(labels).tolist(), len(labels)]
+            bounds = [0, *cut_frames(labels).tolist(), len(labels)]
             shown = {m: int(np.bincount(truth[labels == m]).argmax()) for m in np.unique(labels).tolist()}
             motions = [shown[int(labels[a])] for a in bounds[:-1]]
             parts += [f'<g transform="translate({LEFT_OF_BARS} 0)">', *_bar(name, y, bounds, motions, [], len(truth))]

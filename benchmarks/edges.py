@@ -12,11 +12,11 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from benchmarks.report import ACCURACY, write_section
-from core.animation import Animation, Take
-from core.errors import CaesuraError
-from core.methods import METHODS
-from core.parameters import Parameters
-from core.pipeline import segment
+from caesura.core.animation import Animation, Take
+from caesura.core.errors import CaesuraError
+from caesura.core.methods.table import METHODS
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import segment
 
 RATE = 30.0
 FRAMES = 150

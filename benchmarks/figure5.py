@@ -21,11 +21,11 @@ import numpy as np
 
 from benchmarks.cmu import Annotation, annotation, skinned
 from benchmarks.drawing import drawn
-from core.agreement import frame_accuracy
-from core.animation import Animation
-from core.parameters import Parameters
-from core.pipeline import analyse, cut, segment
-from core.segmentation import Segmentation
+from caesura.core.agreement import frame_accuracy
+from caesura.core.animation import Animation
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import analyse, cut, segment
+from caesura.core.segmentation import Segmentation
 
 TRIAL = "86_09"
 WINDOWS = (1.3, 1.4, 1.5, 1.6, 1.7)

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Int
 
-from samples.body import Body, body
-from samples.figures import CHOREOGRAPHIES, SEEDS
-from samples.model import smooth_glb
-from samples.repertoire import MOTIONS
-from samples.surface import Surface
-from samples.take import RATE, Part, Take, perform
-from samples.weights import strongest
+from caesura.samples.body import Body, body
+from caesura.samples.figures import CHOREOGRAPHIES, SEEDS
+from caesura.samples.model import smooth_glb
+from caesura.samples.repertoire import MOTIONS
+from caesura.samples.surface import Surface
+from caesura.samples.take import RATE, Part, Take, perform
+from caesura.samples.weights import strongest
 
 CELL = 0.0178  # metres: a fourth of the triangles wanted; every one is cut into four
 FRAMES = 1_047

@@ -11,14 +11,14 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float, Int
 
-from core.animation import Animation, Take
-from core.formats.gltf.nodes import R
-from core.formats.gltf.posing.vertices import PosedVertices
-from core.formats.gltf.sampling import Tracks
-from core.formats.header import read_header
-from core.formats.read import read_animation
-from core.limits import Limits
-from core.parameters import Parameters
+from caesura.core.animation import Animation, Take
+from caesura.core.limits import Limits
+from caesura.core.parameters import Parameters
+from caesura.formats.gltf.animation.sampling import KeyTracks
+from caesura.formats.gltf.posing.nodes import R
+from caesura.formats.gltf.posing.vertices import PosedVertices
+from caesura.formats.header import read_header
+from caesura.formats.read import read_animation
 
 RATE = 30.0
 SECONDS = (3.0, 8.0)  # of a segment
@@ -58,7 +58,7 @@ class Passage:
 
 
 @dataclass(frozen=True)
-class JoinedTracks(Tracks):
+class JoinedTracks(KeyTracks):
     """The course of a joined take, in place of the keys of one clip."""
 
     passages: tuple[Passage, ...]

@@ -8,7 +8,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 from jaxtyping import Int
 
-from service.commands.labelling import Labelling
+from caesura.service.commands.labelling import Labelling
 
 ENDINGS = (".truth.json", ".json", ".csv", ".eaf")
 MODELS = (".glb", ".gltf", ".npz", ".bvh", ".zip")

@@ -27,13 +27,13 @@ import numpy as np
 from benchmarks.fine_figure import fine_figure
 from benchmarks.report import write_section
 from benchmarks.stopwatch import AnonymousPeak
-from core.animation import Animation
-from core.blocks import frames_per_block
-from core.formats.read import read_animation
-from core.limits import Limits
-from core.parameters import Parameters
-from core.pipeline import segment
-from samples.session import long_session
+from caesura.core.animation import Animation
+from caesura.core.frames.blocks import frames_per_block
+from caesura.core.limits import Limits
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import segment
+from caesura.formats.read import read_animation
+from caesura.samples.session import long_session
 
 ROOT = Path(__file__).resolve().parent.parent
 DOCS = ROOT / "docs" / "performance.md"

@@ -16,8 +16,8 @@ import numpy as np
 
 from benchmarks.stopwatch import AnonymousPeak, anonymous
 from benchmarks.tube import FRAME_RATE, Tube
-from core.parameters import Parameters
-from core.pipeline import analyse
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import analyse
 
 LOOK_SECONDS = 0.02
 WARMING_FRAMES = 128
@@ -34,7 +34,16 @@ def of_the_command(gigabytes: float) -> float:
     with TemporaryDirectory(prefix="caesura-bench-") as folder:
         path = Path(folder) / "large.npz"
         _write(path, gigabytes)
-        command = [sys.executable, "-m", "service.cli", "segment", str(path), "--motions", "3", "--json"]
+        command = [
+            sys.executable,
+            "-m",
+            "caesura.service.commands.cli",
+            "segment",
+            str(path),
+            "--motions",
+            "3",
+            "--json",
+        ]
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
         most = 0
         while process.poll() is None:

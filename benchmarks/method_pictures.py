@@ -13,17 +13,17 @@ from jaxtyping import Float, Int, UInt8
 from sklearn.cluster import KMeans
 
 from benchmarks.numpy_twin import twin
-from core.analysis import Analysis
-from core.front_door import open_animation
-from core.parameters import Parameters
-from core.pipeline import analyse, cut
-from core.poses import poses
-from core.switching.settling import settle
-from core.switching.signal import Windows
-from core.switching.stretches import Stretches
-from core.switching.weighed import CHANGE_SECONDS
-from samples.figures import figure
-from samples.take import Truth
+from caesura.api import open_animation
+from caesura.core.analysis import Analysis
+from caesura.core.methods.pose_features import pose_features
+from caesura.core.methods.switching.feature_weights import CHANGE_SECONDS
+from caesura.core.methods.switching.initial_segments import InitialSegments
+from caesura.core.methods.switching.switching_k_means import run_switching_k_means
+from caesura.core.methods.switching.windowed_signal import DescriptorWindows
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import analyse, cut
+from caesura.samples.figures import figure
+from caesura.samples.take import Truth
 
 WIDTH, LEFT, BAR = 860, 150, 24  # pixels
 COLOURS = ("#4477aa", "#ccbb44", "#ee6677", "#228833", "#66ccee", "#aa3377")  # Tol's bright scheme, colour-blind safe
@@ -100,7 +100,7 @@ def histograms(
 def similarity(analysis: Analysis, truth: Truth) -> str:
     """How far every pose is from every other: dark squares are motions, dark stripes in them repetitions."""
     every = max(analysis.frames // 300, 1)
-    values = poses(analysis.features)[::every]
+    values = pose_features(analysis.features)[::every]
     squares = np.einsum("fd,fd->f", values, values)
     far = np.sqrt(np.maximum(squares[:, None] + squares - 2 * values @ values.T, 0))
     grey = np.asarray(np.clip(255 * far / np.percentile(far, 98), 0, 255), np.uint8)
@@ -116,18 +116,21 @@ def similarity(analysis: Analysis, truth: Truth) -> str:
 
 def changes(analysis: Analysis, motions: int, truth: Truth) -> str:
     """What windows do, and what it does that a change costs something: single poses and windows, without and with."""
-    single, rate = poses(analysis.features), analysis.frame_rate
+    single, rate = pose_features(analysis.features), analysis.frame_rate
     centres = KMeans(motions, n_init=4, random_state=0).fit(single).cluster_centers_
-    signal = Windows.of(analysis.features, analysis.frames, rate).signal()
+    signal = DescriptorWindows.of(analysis.features, analysis.frames, rate).signal()
     assert signal is not None
     penalty = CHANGE_SECONDS / signal.seconds_per_step
-    means = Stretches.of(signal, penalty, at_least=motions).grouped(motions)
+    means = InitialSegments.of(signal, penalty, at_least=motions).grouped(motions)
     rows = [
         ("truth", _labels(truth)),
-        ("poses, λ = 0", settle(single, centres, 0.0).labels),
-        ("poses, λ = 1/3 s", settle(single, centres, CHANGE_SECONDS * rate * _mean_square(single)).labels),
-        ("windows, λ = 0", signal.per_frame(settle(signal.values, means, 0.0).labels)),
-        ("windows, λ = 1/3 s", signal.per_frame(settle(signal.values, means, penalty).labels)),
+        ("poses, λ = 0", run_switching_k_means(single, centres, 0.0).labels),
+        (
+            "poses, λ = 1/3 s",
+            run_switching_k_means(single, centres, CHANGE_SECONDS * rate * _mean_square(single)).labels,
+        ),
+        ("windows, λ = 0", signal.per_frame(run_switching_k_means(signal.values, means, 0.0).labels)),
+        ("windows, λ = 1/3 s", signal.per_frame(run_switching_k_means(signal.values, means, penalty).labels)),
     ]
     return _svg(len(rows) * (BAR + 6) + 40, _bars(rows, truth, 14))
 

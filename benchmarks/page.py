@@ -20,12 +20,12 @@ from benchmarks.page_work import frame_costs, stage_of, step_costs
 from benchmarks.processes import service
 from benchmarks.report import write_section
 from benchmarks.session import DOCS, SOFTWARE_WEBGL
-from core.front_door import open_animation
-from samples.body import body
-from samples.model import smooth_glb
-from samples.session import long_session, schedule
-from samples.take import perform
-from service.commands.client import Client
+from caesura.api import open_animation
+from caesura.samples.body import body
+from caesura.samples.model import smooth_glb
+from caesura.samples.session import long_session, schedule
+from caesura.samples.take import perform
+from caesura.service.commands.client import Client
 
 FRAMES = 1000
 CELL = 0.01352  # metres: about 30,000 triangles

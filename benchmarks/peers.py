@@ -19,7 +19,7 @@ from sklearn.cluster import AgglomerativeClustering
 
 from benchmarks.detectors import DETECTORS
 from benchmarks.sequences import Known
-from core.agreement import cuts_of
+from caesura.core.agreement import cut_frames
 
 PEERS = tuple(DETECTORS)
 
@@ -41,7 +41,7 @@ class Peers:
         Raises `NotInstalled`.
         """
         values = described(known)
-        found, seconds = self.cuts(name, values, len(cuts_of(known.truth)))
+        found, seconds = self.cuts(name, values, len(cut_frames(known.truth)))
         bounds = [0, *found, len(values)]
         means = np.stack([values[a:b].mean(axis=0) for a, b in pairwise(bounds)])
         groups = min(known.motions, len(means))

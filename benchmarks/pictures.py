@@ -10,9 +10,9 @@ from playwright.sync_api import Browser, FilePayload, Page, expect, sync_playwri
 
 from benchmarks.processes import service
 from benchmarks.session import SOFTWARE_WEBGL
-from samples.figures import figure
-from samples.session import long_session
-from service.commands.client import Client
+from caesura.samples.figures import figure
+from caesura.samples.session import long_session
+from caesura.service.commands.client import Client
 
 DOCS = Path(__file__).resolve().parent.parent / "docs"
 FLAGS = [*SOFTWARE_WEBGL, "--disable-lcd-text", "--force-color-profile=srgb", "--hide-scrollbars"]

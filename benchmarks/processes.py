@@ -15,11 +15,11 @@ LOOK_SECONDS = 0.2
 PROC = Path("/proc")
 
 ROLES = (
-    ("service.web", "web"),
+    ("caesura.service.process.web", "web"),
     ("valkey-server", "Redis"),
     ("redis-server", "Redis"),
     ("caesura serve", "supervisor"),
-    ("service.cli serve", "supervisor"),
+    ("caesura.service.commands.cli serve", "supervisor"),
 )
 """What a command line says of a process; all others below the service are workers or their work-horses."""
 
@@ -80,7 +80,7 @@ def service() -> Iterator[Running]:
     with TemporaryDirectory(prefix="caesura-bench-") as folder:
         environment = {name: value for name, value in os.environ.items() if name != "REDIS_URL"}
         process = subprocess.Popen(
-            [sys.executable, "-m", "service.cli", "serve", "--port", "0"],
+            [sys.executable, "-m", "caesura.service.commands.cli", "serve", "--port", "0"],
             env=environment | {"CAESURA_DATA_DIR": folder},
             stdout=subprocess.PIPE,
             stderr=(Path(folder) / "log").open("wb"),

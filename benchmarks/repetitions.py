@@ -16,11 +16,11 @@ from jaxtyping import Int
 
 from benchmarks.report import ACCURACY, write_section
 from benchmarks.sequences import Known, kept_back
-from core.agreement import cuts_of
-from core.parameters import Parameters
-from core.pipeline import cut
-from core.repetition.repeats import Repetitions, repeats
-from samples.figures import FIGURES, figure
+from caesura.core.agreement import cut_frames
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import cut
+from caesura.core.repetition.repetitions import RepetitionFinder, find_repetitions
+from caesura.samples.figures import FIGURES, figure
 
 FIRST_SEED = 901
 TOLERANCE_SECONDS = 0.5
@@ -32,7 +32,7 @@ Right = tuple[int, int]  # segments counted right, of so many
 
 def on_true_cuts(known: Known) -> Right:
     """Segments whose repetitions are counted right."""
-    found = repeats(known.analysis.once(Repetitions.of), known.truth)
+    found = find_repetitions(known.analysis.once(RepetitionFinder.of), known.truth)
     return sum(len(r) == true for r, true in zip(found, known.repeats, strict=True)), len(known.repeats)
 
 
@@ -51,7 +51,7 @@ def on_found_cuts(known: Known) -> Right:
 
 
 def _bounds(labels: Int[np.ndarray, "frames"]) -> list[tuple[int, int]]:
-    return list(pairwise([0, *cuts_of(labels).tolist(), len(labels)]))
+    return list(pairwise([0, *cut_frames(labels).tolist(), len(labels)]))
 
 
 def groups(count: int) -> Iterator[tuple[str, list[Known]]]:

@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Int
 
 from benchmarks.sequences import Known
-from core.agreement import adjusted_rand_index, boundary_scores, cuts_of, frame_accuracy, segment_f1
+from caesura.core.agreement import adjusted_rand_index, boundary_scores, cut_frames, frame_accuracy, segment_f1
 
 
 @dataclass(frozen=True)
@@ -25,8 +25,8 @@ class Scores:
     @classmethod
     def of(cls, labels: Int[np.ndarray, "frames"], known: Known, seconds: float) -> "Scores":
         """Every figure of one labelling."""
-        truth, rate, cuts = known.truth, known.analysis.frame_rate, cuts_of(labels)
-        wide, narrow = (boundary_scores(cuts, cuts_of(truth), round(t * rate)).f1 for t in (0.5, 0.15))
+        truth, rate, cuts = known.truth, known.analysis.frame_rate, cut_frames(labels)
+        wide, narrow = (boundary_scores(cuts, cut_frames(truth), round(t * rate)).f1 for t in (0.5, 0.15))
         tenth, quarter, half = (segment_f1(labels, truth, overlap).f1 for overlap in (0.1, 0.25, 0.5))
         found = len(np.unique(labels))
         return cls(

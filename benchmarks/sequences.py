@@ -16,13 +16,13 @@ from benchmarks.cmu import annotation, skinned
 from benchmarks.creatures import creature
 from benchmarks.joining import Joined, joined
 from benchmarks.labelled import Stretch, labelled, per_frame, read_labels
-from core.analysis import Analysis
-from core.formats.read import read_animation
-from core.limits import Limits
-from core.parameters import Parameters
-from core.pipeline import analyse
-from samples.figures import FIGURES, figure
-from samples.take import Sample
+from caesura.core.analysis import Analysis
+from caesura.core.limits import Limits
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import analyse
+from caesura.formats.read import read_animation
+from caesura.samples.figures import FIGURES, figure
+from caesura.samples.take import Sample
 
 DEVELOPMENT = frozenset({"fox_hard_0", "godotman_hard_0", "figure smooth", "figure rigid", "86_09"})
 """Takes on which the default method's constants were fixed, besides those of seeds below `HELD_BACK`."""

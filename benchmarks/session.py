@@ -15,11 +15,11 @@ from playwright.sync_api import Page, sync_playwright
 
 from benchmarks.processes import Watch, service
 from benchmarks.report import write_section
-from core.formats.header import read_header
-from core.limits import Limits
-from samples.session import long_session
-from service.commands.client import Client
-from service.commands.labelling import Labelling, agreement
+from caesura.core.limits import Limits
+from caesura.formats.header import read_header
+from caesura.samples.session import long_session
+from caesura.service.commands.client import Client
+from caesura.service.commands.labelling import Labelling, compute_agreement
 
 DOCS = Path(__file__).resolve().parent.parent / "docs" / "performance.md"
 SCRUBS = 60
@@ -53,7 +53,7 @@ def _measured(frames: int) -> list[str]:
         peaks = watch.stop()
         shown = _page(f"{url}/view/{found.id}", frames)
     truth = Labelling.of(sample.truth.document())
-    agreed = agreement(Labelling.of(found.model_dump()), truth)
+    agreed = compute_agreement(Labelling.of(found.model_dump()), truth)
     triangles = read_header(io.BytesIO(sample.glb), "session.glb", Limits()).triangles or 0
     return [
         "| a session of our own, as one GLB | measured |",

@@ -7,10 +7,10 @@ import numpy as np
 
 from benchmarks.curve import Curve
 from benchmarks.fine_figure import fine_figure
-from core.animation import Animation
-from core.formats.read import read_animation
-from core.limits import Limits
-from core.parameters import Parameters
+from caesura.core.animation import Animation
+from caesura.core.limits import Limits
+from caesura.core.parameters import Parameters
+from caesura.formats.read import read_animation
 
 SAMPLED_AT_ONCE = 64
 

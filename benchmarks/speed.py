@@ -28,10 +28,10 @@ from benchmarks.report import write_section
 from benchmarks.skinned import Skinned
 from benchmarks.stopwatch import Cost, least
 from benchmarks.tube import Tube
-from core.blocks import blocks_of
-from core.keyframes import local_maxima
-from core.parameters import Parameters
-from core.pipeline import analyse, cut, segment
+from caesura.core.energy.key_frames import find_local_maxima
+from caesura.core.frames.blocks import split_into_blocks
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import analyse, cut, segment
 
 THREADS = 2
 DOCS = Path(__file__).parent.parent / "docs"
@@ -70,7 +70,7 @@ class Row(NamedTuple):
 def copying(tube: Tube) -> Callable[[], object]:
     """`np.copyto` of the vertices on two threads."""
     target = np.zeros_like(tube.vertices)
-    halves = blocks_of(len(target), (len(target) + 1) // THREADS)
+    halves = split_into_blocks(len(target), (len(target) + 1) // THREADS)
     pool = ThreadPoolExecutor(THREADS)
     return lambda: list(pool.map(lambda half: np.copyto(target[slice(*half)], tube.vertices[slice(*half)]), halves))
 
@@ -115,11 +115,11 @@ def against_twin(turns: int) -> Iterator[Row]:
     )
     exact, found = twin(tube.vertices, tube.rest, tube.triangles, curve.window), curve.energy()
     take = curve.surveyed()
-    columns = take.surveyor.body.surface.triangles  # type: ignore[attr-defined]  # a tube is strained by its triangles
+    columns = take.block_pass.body.surface.triangles  # type: ignore[attr-defined]  # a tube is strained by its triangles
     strain = np.concatenate([t.T.copy() for _, t in curve.bare.surface.tiles(tube.vertices[:64])], axis=1)
     error = np.abs(strain - exact.strain[:64, columns]) / exact.scale
     apart = float(np.nanmax(np.abs(found - exact.energy)))
-    same = np.array_equal(local_maxima(found), local_maxima(exact.energy))
+    same = np.array_equal(find_local_maxima(found), find_local_maxima(exact.energy))
     yield Row(
         "times faster than NumPy, two threads against one", costs["twin"].busy / costs["curve"].busy * 2, least=45
     )

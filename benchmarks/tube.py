@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32, Int
 
-from core.animation import Animation, Take
+from caesura.core.animation import Animation, Take
 
 FRAME_RATE = 30.0
 LENGTH, RADIUS = 8.0, 0.5

@@ -1,46 +1,17 @@
-"""Find the motions in a 3D animation: arrays and buffers in, frozen values out.
+"""The method: arrays and frozen values in and out. No files, HTTP, Redis, clock or environment.
 
-    from core import segment
-
-    found = segment(vertices, triangles, frame_rate=30, motions=5)  # (frames, V, 3) and (T, 3)
-    found.labels, found.segments, found.energy
-
-The package itself loads nothing: `core.errors`, `core.limits`, `core.parameters`, `core.document` and
-`core.formats.header` are light (no NumPy) and serve the web process; everything else is numerics, and comes with
-the first use of a name below.
+pipeline, parameters      the steps in order, and what a person may choose
+animation                 what goes in: frames of vertices, and the triangles between them
+mesh, descriptors         meshes at rest, and what is measured on them: strain, pair distances, curvature, …
+frames                    frames of vertices, read in blocks
+block_pass                the one pass over the vertices, block of frames by block of frames
+energy                    joint entropy, the energy curve, its key-frames
+methods                   from an analysis to cuts and motions: one folder a family, one table of all
+repetition                the repetitions inside every segment
+analysis, segmentation    what is computed once from the vertices, and what every cut of it gives
+document, revision        the result as JSON, and what people change in it
+agreement                 how well two labellings agree
+plot                      the result as a picture
+kernels                   all compiled functions
+errors, limits, progress  what can be wrong, how much is allowed, how far the work is
 """
-
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from core.animation import Animation
-    from core.estimators import MotionFeatures, MotionSegmenter
-    from core.front_door import open_animation, segment
-    from core.parameters import Parameters
-    from core.segmentation import Segmentation
-
-_HOMES = {
-    "Animation": "core.animation",
-    "MotionFeatures": "core.estimators",
-    "MotionSegmenter": "core.estimators",
-    "Parameters": "core.parameters",
-    "Segmentation": "core.segmentation",
-    "open_animation": "core.front_door",
-    "segment": "core.front_door",
-}
-
-__all__ = [  # noqa: RUF022  in the order in which they are met
-    "segment", "open_animation", "Animation", "Parameters", "Segmentation", "MotionSegmenter", "MotionFeatures",
-]  # fmt: skip
-
-
-def __getattr__(name: str) -> Any:
-    """A public name, from the module it is at home in (PEP 562)."""
-    if name not in _HOMES:
-        raise AttributeError(f"module 'core' has no attribute {name!r}; it has {', '.join(__all__)}")
-    return getattr(import_module(_HOMES[name]), name)
-
-
-def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})

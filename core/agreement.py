@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Int
-from scipy.optimize import linear_sum_assignment
 
 Labels = Int[np.ndarray, "_"]
 Cuts = Int[np.ndarray, "_"]
+Lengths = Int[np.ndarray, "_"]
 
 
 class Scores(NamedTuple):
@@ -23,26 +23,29 @@ class Scores(NamedTuple):
     f1: float
 
 
-def frame_accuracy(labels: Labels, truth: Labels) -> float:
+def frame_accuracy(labels: Labels, truth: Labels, lengths: Lengths | None = None) -> float:
     """Share of frames whose label is right under the best one-to-one matching of labels (Hungarian), 0 to 1.
 
-    A label too many matches nothing, and its frames count as wrong.
+    A label too many matches nothing, and its frames count as wrong. With `lengths`, each entry of both stands for so
+    many frames.
     """
-    _check(labels, truth)
-    counts = _contingency(labels, truth)
-    rows, columns = linear_sum_assignment(counts, maximize=True)
-    return float(counts[rows, columns].sum() / len(truth))
+    _check_labels(labels, truth)
+    counts = _contingency(labels, truth, lengths)
+    return float(counts[_matching(counts)].sum() / counts.sum())
 
 
 def rand_index(labels: Labels, truth: Labels) -> float:
     """Share of the pairs of frames that are together in both or apart in both, 0 to 1 (Rand 1971)."""
-    neither, found, true, both = _pairs(labels, truth)
+    neither, found, true, both = _count_pairs(labels, truth)
     return (both + neither) / (both + neither + found + true) if len(truth) > 1 else 1.0
 
 
-def adjusted_rand_index(labels: Labels, truth: Labels) -> float:
-    """The Rand index corrected for chance: 1 where both agree, 0 expected of chance, down to −0.5 (Hubert 1985)."""
-    neither, found, true, both = _pairs(labels, truth)
+def adjusted_rand_index(labels: Labels, truth: Labels, lengths: Lengths | None = None) -> float:
+    """The Rand index corrected for chance: 1 where both agree, 0 expected of chance, down to −0.5 (Hubert 1985).
+
+    With `lengths`, each entry of both stands for so many frames, at most 10⁹ in all.
+    """
+    neither, found, true, both = _count_pairs(labels, truth, lengths)
     if found == true == 0:
         return 1.0
     chance = (both + true) * (true + neither) + (both + found) * (found + neither)
@@ -71,8 +74,11 @@ def segment_f1(labels: Labels, truth: Labels, overlap: float) -> Scores:
 
     Labels are matched one to one first, as for the frame accuracy. Each true segment is hit once, by the best overlap.
     """
-    _check(labels, truth)
-    found, true = _segments(_named_as(labels, truth)), _segments(_numbered(truth))
+    _check_labels(labels, truth)
+    found, true = (
+        _segments_of_labels(_match_labels(labels, truth)),
+        _segments_of_labels(_as_consecutive_integers(truth)),
+    )
     hit = np.zeros(len(true), bool)
     hits = 0
     for name, start, stop in found:
@@ -87,7 +93,7 @@ def segment_f1(labels: Labels, truth: Labels, overlap: float) -> Scores:
     return _scores(hits, len(found), len(true))
 
 
-def cuts_of(labels: Labels) -> Cuts:
+def cut_frames(labels: Labels) -> Cuts:
     """The first frame of every segment but the first."""
     return np.flatnonzero(np.diff(labels)) + 1
 
@@ -99,50 +105,58 @@ def _scores(hits: int, found: int, true: int) -> Scores:
     return Scores(precision, recall, 2 * hits / (found + true))
 
 
-def _check(labels: Labels, truth: Labels) -> None:
+def _check_labels(labels: Labels, truth: Labels) -> None:
     if len(labels) != len(truth):
         raise ValueError(f"{len(labels)} labels against {len(truth)} true ones: both must have one for every frame")
     if len(truth) == 0:
         raise ValueError("there is no frame to compare")
 
 
-def _numbered(labels: Labels) -> Labels:
+def _as_consecutive_integers(labels: Labels) -> Labels:
     return np.asarray(np.unique(labels, return_inverse=True)[1])
 
 
-def _contingency(labels: Labels, truth: Labels) -> Int[np.ndarray, "found true"]:
+def _contingency(labels: Labels, truth: Labels, lengths: Lengths | None = None) -> Int[np.ndarray, "found true"]:
     """counts[i, j]: frames with the i-th label and the j-th true one."""
-    found, true = _numbered(labels), _numbered(truth)
+    found, true = _as_consecutive_integers(labels), _as_consecutive_integers(truth)
     counts = np.zeros((found.max() + 1, true.max() + 1), np.int64)
-    np.add.at(counts, (found, true), 1)
+    np.add.at(counts, (found, true), 1 if lengths is None else lengths)
     return counts
 
 
-def _pairs(labels: Labels, truth: Labels) -> tuple[int, int, int, int]:
+def _matching(counts: Int[np.ndarray, "found true"]) -> tuple[Int[np.ndarray, "m"], Int[np.ndarray, "m"]]:
+    """The rows and columns that belong together for the largest sum (Hungarian)."""
+    from scipy.optimize import linear_sum_assignment  # noqa: PLC0415  a tenth of a second that no segmentation needs
+
+    return linear_sum_assignment(counts, maximize=True)  # type: ignore[no-any-return]
+
+
+def _count_pairs(labels: Labels, truth: Labels, lengths: Lengths | None = None) -> tuple[int, int, int, int]:
     """Ordered pairs of frames that share a label in neither, only the found, only the true, and both labellings.
 
     Counted by groups and not by pairs: a cut of a take asks for this ten times.
     """
-    _check(labels, truth)
-    counts = _contingency(labels, truth)
-    both = int(np.sum(counts**2)) - len(truth)
-    found = int(np.sum(counts.sum(axis=1) ** 2)) - len(truth) - both
-    true = int(np.sum(counts.sum(axis=0) ** 2)) - len(truth) - both
-    return len(truth) * (len(truth) - 1) - both - found - true, found, true, both
+    _check_labels(labels, truth)
+    counts = _contingency(labels, truth, lengths)
+    frames = int(counts.sum())
+    both = int(np.sum(counts**2)) - frames
+    found = int(np.sum(counts.sum(axis=1) ** 2)) - frames - both
+    true = int(np.sum(counts.sum(axis=0) ** 2)) - frames - both
+    return frames * (frames - 1) - both - found - true, found, true, both
 
 
-def _named_as(labels: Labels, truth: Labels) -> Labels:
+def _match_labels(labels: Labels, truth: Labels) -> Labels:
     """The labels renamed to the true ones they match, and unmatched ones to −1, −2, …"""
     counts = _contingency(labels, truth)
     names = -1 - np.arange(len(counts))
-    rows, columns = linear_sum_assignment(counts, maximize=True)
+    rows, columns = _matching(counts)
     names[rows] = columns
-    return np.asarray(names[_numbered(labels)])
+    return np.asarray(names[_as_consecutive_integers(labels)])
 
 
-def _segments(labels: Labels) -> list[tuple[int, int, int]]:
+def _segments_of_labels(labels: Labels) -> list[tuple[int, int, int]]:
     """(label, start, stop) of every segment."""
-    bounds = [0, *cuts_of(labels).tolist(), len(labels)]
+    bounds = [0, *cut_frames(labels).tolist(), len(labels)]
     return [(int(labels[a]), a, b) for a, b in pairwise(bounds)]
 
 

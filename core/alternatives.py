@@ -2,13 +2,13 @@
 
 from collections.abc import Iterable, Iterator
 
-from core.analysis import Analysis
-from core.parameters import Parameters
-from core.pipeline import cut
-from core.segmentation import Segmentation
+from caesura.core.analysis import Analysis
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import cut
+from caesura.core.segmentation import Segmentation
 
 
-def alternatives(
+def cut_into_other_motion_counts(
     analysis: Analysis, parameters: Parameters, scored: Iterable[int], chosen: int
 ) -> Iterator[Segmentation]:
     """What `cut` answers for every number of motions that was scored when it chose one; the nearest to that first.

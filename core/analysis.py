@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 import numpy as np
 from jaxtyping import Float, Int
 
-from core.document import Notice, Source
+from caesura.core.document import Notice, Source
 
 Made = TypeVar("Made")
 

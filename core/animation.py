@@ -7,7 +7,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from jaxtyping import Float, Int
 
-from core.document import Notice
+from caesura.core.document import Notice
 
 
 @runtime_checkable

@@ -16,7 +16,7 @@ Anything else that is raised is a bug of ours, and is never dressed up as one of
 from collections.abc import Mapping
 from typing import Any, ClassVar, Self
 
-Detail = str | int | float
+ErrorDetail = str | int | float
 
 
 class CaesuraError(Exception):
@@ -29,18 +29,18 @@ class CaesuraError(Exception):
 
     kind: ClassVar[str] = "error"
 
-    def __init__(self, code: str, detail: str, **where: Detail | None) -> None:
+    def __init__(self, code: str, detail: str, **where: ErrorDetail | None) -> None:
         super().__init__(detail)
         self.code = code
         self.detail = detail
-        self.where: dict[str, Detail] = {k: v for k, v in where.items() if v is not None}
+        self.where: dict[str, ErrorDetail] = {k: v for k, v in where.items() if v is not None}
 
     def __str__(self) -> str:
         place = ", ".join(f"{name} {value}" for name, value in self.where.items())
         return f"{self.code}: {self.detail}" + (f" ({place})" if place else "")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (from_problem, (self.problem(),))
+        return (error_from_problem, (self.problem(),))
 
     def problem(self) -> dict[str, Any]:
         """This error as plain JSON values; `from_problem` makes the same error of it again."""
@@ -89,7 +89,7 @@ class ParameterError(CaesuraError):
     kind = "parameter"
 
 
-KINDS: dict[str, type[CaesuraError]] = {
+ERROR_KINDS: dict[str, type[CaesuraError]] = {
     error.kind: error
     for error in (
         CaesuraError, InputError, UnsupportedMedia, BrokenContainer, InvalidModel, LimitExceeded, ParameterError,
@@ -97,6 +97,6 @@ KINDS: dict[str, type[CaesuraError]] = {
 }  # fmt: skip
 
 
-def from_problem(problem: Mapping[str, Any]) -> CaesuraError:
+def error_from_problem(problem: Mapping[str, Any]) -> CaesuraError:
     """The error that `CaesuraError.problem` described: how a worker's refusal reaches the service."""
-    return KINDS[problem["kind"]].of(problem)
+    return ERROR_KINDS[problem["kind"]].of(problem)

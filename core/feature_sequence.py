@@ -3,18 +3,20 @@
 import numpy as np
 from jaxtyping import Real
 
-from core.analysis import Analysis, Features
-from core.document import Source
-from core.errors import InvalidModel, ParameterError
-from core.parameters import Parameters
-from core.pipeline import cut
-from core.segmentation import Segmentation
+from caesura.core.analysis import Analysis, Features
+from caesura.core.document import Source
+from caesura.core.errors import InvalidModel, ParameterError
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import cut
+from caesura.core.segmentation import Segmentation
 
 NEEDS_VERTICES = frozenset({"joint-entropy"})
 """Methods of the energy curve, which is of a surface; there is none without vertices."""
 
 
-def cut_features(values: Real[np.ndarray, "frames D"], parameters: Parameters, *, frame_rate: float) -> Segmentation:
+def segment_features(
+    values: Real[np.ndarray, "frames D"], parameters: Parameters, *, frame_rate: float
+) -> Segmentation:
     """The motions of a sequence of features, as `switching` and the compared methods see them; no energy curve.
 
     Columns are taken as they are: scale them first where their units differ. Raises `InvalidModel` (`no-motion`
@@ -35,10 +37,10 @@ def cut_features(values: Real[np.ndarray, "frames D"], parameters: Parameters, *
     finite = np.isfinite(values).all(axis=1)
     if not finite.all():
         raise InvalidModel("non-finite-data", "A feature is not a finite number.", frame=int(np.argmin(finite)))
-    return cut(_analysis(values, parameters, frame_rate), parameters)
+    return cut(_analysis_of_features(values, parameters, frame_rate), parameters)
 
 
-def _analysis(values: Real[np.ndarray, "frames D"], parameters: Parameters, frame_rate: float) -> Analysis:
+def _analysis_of_features(values: Real[np.ndarray, "frames D"], parameters: Parameters, frame_rate: float) -> Analysis:
     """What would be known of a take with these features and no surface."""
     centred = values - values.mean(axis=0, dtype=np.float64)
     largest = float(np.abs(centred).max(initial=0.0))

@@ -2,7 +2,7 @@
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from core.errors import LimitExceeded
+from caesura.core.errors import LimitExceeded
 
 UNLIMITED = 2**62
 
@@ -26,7 +26,7 @@ class Limits(BaseModel):
     max_nodes: int = Field(50_000, gt=0, description="nodes of the scene")
     max_primitives: int = Field(10_000, gt=0, description="mesh primitives")
     max_inflated_bytes: int = Field(2 * 2**30, gt=0, description="bytes of an archive's members, inflated")
-    max_takes: int = Field(10_000, gt=0, description="animations in one file")
+    max_takes: int = Field(1_000, gt=0, description="animations in one file")
     max_targets: int = Field(10_000, gt=0, description="morph targets of one primitive")
     max_target_vertices: int = Field(50_000_000, gt=0, description="morph targets x vertices")
 

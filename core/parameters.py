@@ -8,19 +8,22 @@ result: it is part of every segmentation's id, so an old result never answers fo
 import json
 from collections.abc import Mapping
 from contextlib import suppress
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from core.errors import ParameterError
+from caesura.core.errors import ParameterError
+from caesura.core.methods.table import METHODS
 
 ALGORITHM = "2"
 
 Auto = Literal["auto"]
 Positive = Field(gt=0, allow_inf_nan=False)
 
-TOLD_MOTIONS = frozenset({"luo2014", "spectral", "aca", "haca"})
-"""Methods that must be told K: they have no way of their own to choose it, and another's would not be theirs."""
+if TYPE_CHECKING:
+    MethodName = str
+else:
+    MethodName = Literal[*METHODS]
 
 
 def _heavy(default: Any, description: str, **rules: Any) -> Any:
@@ -63,9 +66,7 @@ class Parameters(BaseModel):
     )
     window_seconds: float = _heavy(1.3, "seconds, length l of a window of Eq. 3 (paper: 1.3 to 1.7)", gt=0, le=600)
 
-    method: Literal["switching", "joint-entropy", "luo2014", "spectral", "aca", "haca"] = _light(
-        "switching", "how the take is cut"
-    )
+    method: MethodName = _light("switching", "how the take is cut")
     motions: Auto | Annotated[int, Field(ge=1, le=1000)] = _light("auto", "number of motion types K, or `auto`")
     keyframe_window_seconds: float = _light(
         2.0, "seconds, width ω in which a key-frame is the largest (paper: 2.0 to 2.3)", gt=0, le=600
@@ -95,11 +96,11 @@ class Parameters(BaseModel):
                 f"It is: {cls.model_fields[name].description}.",
                 parameter=name,
             ) from None
-        if parameters.method in TOLD_MOTIONS:
-            parameters.motions_told()
+        if METHODS[parameters.method].needs_motions:
+            parameters.required_motions()
         return parameters
 
-    def motions_told(self) -> int:
+    def required_motions(self) -> int:
         """K; raises `ParameterError` where nobody said it."""
         if self.motions == "auto":
             raise ParameterError(
@@ -112,7 +113,7 @@ class Parameters(BaseModel):
 
     def heavy(self) -> "dict[str, Any]":
         """The parameters an analysis depends on; light ones may change without touching a vertex."""
-        return self.model_dump(include=names("heavy"))
+        return self.model_dump(include=parameter_names("heavy"))
 
     def canonical(self) -> str:
         """The same text for the same choices, however they were spelled: what ids are made of."""
@@ -134,7 +135,7 @@ def _value(name: str, given: Any) -> Any:
     return value
 
 
-def names(weight: Literal["heavy", "light"]) -> set[str]:
+def parameter_names(weight: Literal["heavy", "light"]) -> set[str]:
     """The names of the parameters of one weight."""
     return {
         name

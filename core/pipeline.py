@@ -3,22 +3,22 @@
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from core.analysis import Analysis
-from core.animation import Animation
-from core.basis import features
-from core.body import Body
-from core.document import Notice, Source
-from core.energy import energy_curve, window_frames
-from core.errors import InvalidModel
-from core.keyframes import local_maxima
-from core.methods import METHODS
-from core.parameters import ALGORITHM, Parameters
-from core.peak_strain import peak_strain
-from core.progress import Progress, ignore
-from core.repetition.repeats import Repetitions, repeats
-from core.rest import rest_shape
-from core.segmentation import Segmentation, in_order_of_appearance
-from core.survey import Survey, survey
+from caesura.core.analysis import Analysis
+from caesura.core.animation import Animation
+from caesura.core.block_pass.features import extract_features
+from caesura.core.block_pass.measured_body import MeasuredBody
+from caesura.core.block_pass.rest_pose import compute_rest_pose
+from caesura.core.block_pass.strain_at_peaks import measure_strain_at_peaks
+from caesura.core.block_pass.vertex_pass import PassResult, run_block_pass
+from caesura.core.document import Notice, Source
+from caesura.core.energy.energy_curve import compute_energy_curve, frames_per_window
+from caesura.core.energy.key_frames import find_local_maxima
+from caesura.core.errors import InvalidModel
+from caesura.core.methods.table import METHODS
+from caesura.core.parameters import ALGORITHM, Parameters
+from caesura.core.progress import Progress, ignore_progress
+from caesura.core.repetition.repetitions import RepetitionFinder, find_repetitions
+from caesura.core.segmentation import Segmentation, number_by_appearance
 
 CODES_BYTES = 128 * 2**20
 """Memory for the codes of strains; those of frames that do not fit are computed twice."""
@@ -29,7 +29,7 @@ def analyse(
     parameters: Parameters | None = None,
     *,
     threads: int = 1,
-    progress: Progress = ignore,
+    progress: Progress = ignore_progress,
     memory_bytes: int = CODES_BYTES,
 ) -> Analysis:
     """Everything that needs the vertices. Memory does not grow with the frames, but for the results themselves.
@@ -44,34 +44,38 @@ def analyse(
         raise InvalidModel("no-motion", detail, pointer=place)
     with threadpool_limits(1):
         progress("rest shape", 0.0)
-        rest = rest_shape(animation, parameters.rest)
-        body, notices = Body.of(animation, rest, parameters)
-        take = survey(animation, body, parameters, threads=threads, progress=progress, memory_bytes=memory_bytes)
-        if not take.strains and take.bends:
+        rest = compute_rest_pose(animation, parameters.rest)
+        body, notices = MeasuredBody.of(animation, rest, parameters)
+        take = run_block_pass(
+            animation, body, parameters, threads=threads, progress=progress, memory_bytes=memory_bytes
+        )
+        if not take.has_strain and take.has_pair_changes:
             body = body.by_pairs()
-            take = survey(animation, body, parameters, threads=threads, progress=progress, memory_bytes=memory_bytes)
+            take = run_block_pass(
+                animation, body, parameters, threads=threads, progress=progress, memory_bytes=memory_bytes
+            )
         scale = take.scale(parameters.normalize)
-        length = window_frames(parameters.energy, parameters.window_seconds, animation.frame_rate)
-        exceedances = take.exceedances(scale, parameters.bins, progress)
-        energy = energy_curve(exceedances, animation.frames, length, body.surface.columns, take.threads)
-        peaks = local_maxima(energy)
+        length = frames_per_window(parameters.energy, parameters.window_seconds, animation.frame_rate)
+        bins = take.bins(scale, parameters.bins, progress)
+        energy = compute_energy_curve(bins, animation.frames, length, parameters.bins, take.threads)
+        peaks = find_local_maxima(energy)
         has_mesh = body.patches.patches > 0
         return Analysis(
             frames=animation.frames,
             frame_rate=animation.frame_rate,
-            source=_source(animation),
+            source=_describe_source(animation),
             heavy=parameters.heavy(),
             energy=energy,
             peaks=peaks,
-            peak_strain=peak_strain(animation, body, peaks, scale, threads, progress),
-            features=features(
-                take.surveyor.projections,
+            peak_strain=measure_strain_at_peaks(animation, body, peaks, scale, threads, progress),
+            features=extract_features(
+                take.block_pass.projections,
                 take.described,
-                (has_mesh and take.strains, take.bends),
+                (has_mesh and take.has_strain, take.has_pair_changes),
                 parameters.descriptor if has_mesh else "strain",
             ),
             strain_scale=scale,
-            notices=animation.notices + notices + _said(animation, take, length, parameters.descriptor),
+            notices=animation.notices + notices + _notices(animation, take, length, parameters.descriptor),
         )
 
 
@@ -80,7 +84,7 @@ def segment(
     parameters: Parameters | None = None,
     *,
     threads: int = 1,
-    progress: Progress = ignore,
+    progress: Progress = ignore_progress,
     memory_bytes: int = CODES_BYTES,
 ) -> Segmentation:
     """The motions of an animation: `analyse`, then `cut`."""
@@ -92,8 +96,8 @@ def segment(
 
 def cut(analysis: Analysis, parameters: Parameters) -> Segmentation:
     """The segments of an analysed take, by the method the parameters name. No vertices are touched."""
-    found = METHODS[parameters.method](analysis, parameters)
-    labels = in_order_of_appearance(found.labels)
+    found = METHODS[parameters.method].load()(analysis, parameters)
+    labels = number_by_appearance(found.labels)
     changes = np.count_nonzero(np.diff(labels))
     return Segmentation(
         method=parameters.method,
@@ -107,22 +111,22 @@ def cut(analysis: Analysis, parameters: Parameters) -> Segmentation:
         confidence=np.ones(changes) if found.confidence is None else found.confidence,
         scores=found.scores,
         notices=analysis.notices + found.notices,
-        repeats=repeats(analysis.once(Repetitions.of), labels),
+        repeats=find_repetitions(analysis.once(RepetitionFinder.of), labels),
     )
 
 
-def _source(animation: Animation) -> Source:
+def _describe_source(animation: Animation) -> Source:
     take = animation.take
     return Source(take=take.index, name=take.name, fps=animation.frame_rate, start_seconds=animation.start_seconds)
 
 
-def _said(animation: Animation, take: Survey, length: int, descriptor: str) -> tuple[Notice, ...]:
+def _notices(animation: Animation, take: PassResult, length: int, descriptor: str) -> tuple[Notice, ...]:
     """What must be said of a take that cannot be cut as usual."""
     said = []
-    if not take.strains and not take.bends:
+    if not take.has_strain and not take.has_pair_changes:
         detail = "The body moves as one rigid piece: nothing deforms, so the take is one segment."
         said.append(Notice(code="no-deformation", detail=detail))
-    elif len(animation.triangles) and take.surveyor.body.patches.patches == 0 and descriptor != "pair-distances":
+    elif len(animation.triangles) and take.block_pass.body.patches.patches == 0 and descriptor != "pair-distances":
         what = "do not strain" if descriptor == "strain" else f"do not change by the descriptor {descriptor}"
         detail = f"The triangles of this mesh {what}, so the energy curve is of distances between its points."
         said.append(Notice(code="no-strain", detail=detail))

@@ -10,5 +10,5 @@ further block is begun, and what it raised is what the caller sees.
 """
 
 
-def ignore(stage: str, fraction: float) -> None:
+def ignore_progress(stage: str, fraction: float) -> None:
     """Nobody is watching."""

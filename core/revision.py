@@ -9,8 +9,8 @@ from unicodedata import normalize
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from core.document import Interval, KeyFrame, Segment, SegmentationDocument, motion_name
-from core.errors import ParameterError
+from caesura.core.document import Interval, KeyFrame, Segment, SegmentationDocument, motion_name
+from caesura.core.errors import ParameterError
 
 LONGEST_NAME = 100
 JOINERS = "\u200c\u200d"
@@ -30,36 +30,36 @@ class Edit(BaseModel):
     discard: bool = Field(False, description="it is to be no clip")
 
 
-def checked(edits: Sequence[Edit], frames: int) -> tuple[Edit, ...]:
+def check_edits(edits: Sequence[Edit], frames: int) -> tuple[Edit, ...]:
     """The same with motions 0, 1, … by first appearance, and the name of its motion on each.
 
     Raises `ParameterError` ("invalid-segments"), with a pointer to the first fault, where they do not tile
     [0, frames), where a name is no name, or where names and motions do not go together one to one.
     """
-    _tile(edits, frames)
+    _check_tiling(edits, frames)
     names = _names(edits)
     ranks = {motion: rank for rank, motion in enumerate(names)}
     return tuple(edit.model_copy(update={"motion": ranks[edit.motion], "name": names[edit.motion]}) for edit in edits)
 
 
-def revised(document: SegmentationDocument, number: int, edits: Sequence[Edit]) -> SegmentationDocument:
+def apply_revision(document: SegmentationDocument, number: int, edits: Sequence[Edit]) -> SegmentationDocument:
     """The computed result with the `checked` segments of revision `number` in place of its own.
 
     Cuts that did not move keep their confidence; key-frames are of the motion that they are in now.
     """
     sure = {segment.end: segment.confidence for segment in document.segments}
-    segments = tuple(_segment(document, edit, sure.get(edit.end)) for edit in edits)
+    segments = tuple(_revised_segment(document, edit, sure.get(edit.end)) for edit in edits)
     return document.model_copy(
         update={
             "revision": number,
             "motions": len({edit.motion for edit in edits}),
             "segments": segments,
-            "key_frames": tuple(_reread(document.key_frames, segments)),
+            "key_frames": tuple(_recompute(document.key_frames, segments)),
         }
     )
 
 
-def _segment(document: SegmentationDocument, edit: Edit, confidence: float | None) -> Segment:
+def _revised_segment(document: SegmentationDocument, edit: Edit, confidence: float | None) -> Segment:
     begin, rate = document.source.start_seconds, document.frame_rate
     return Segment(
         start=edit.start,
@@ -87,7 +87,7 @@ def _repeats(before: Iterable[Segment], edit: Edit) -> tuple[Interval, ...]:
     return tuple(Interval(start=a, end=b) for a, b in pairwise(bounds))
 
 
-def _reread(keys: Iterable[KeyFrame], segments: Sequence[Segment]) -> Iterable[KeyFrame]:
+def _recompute(keys: Iterable[KeyFrame], segments: Sequence[Segment]) -> Iterable[KeyFrame]:
     """Key-frames and segments both come in order, so one walk finds each key-frame's segment."""
     place = 0
     for key in keys:
@@ -96,7 +96,7 @@ def _reread(keys: Iterable[KeyFrame], segments: Sequence[Segment]) -> Iterable[K
         yield key.model_copy(update={"motion": segments[place].motion})
 
 
-def _tile(edits: Sequence[Edit], frames: int) -> None:
+def _check_tiling(edits: Sequence[Edit], frames: int) -> None:
     at = 0
     for number, edit in enumerate(edits):
         if edit.start != at:

@@ -6,7 +6,16 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float, Int
 
-from core.document import Interval, KeyFrame, Notice, Score, Segment, SegmentationDocument, Source, motion_name
+from caesura.core.document import (
+    Interval,
+    KeyFrame,
+    Notice,
+    Score,
+    Segment,
+    SegmentationDocument,
+    Source,
+    motion_name,
+)
 
 
 @dataclass(frozen=True)
@@ -111,7 +120,7 @@ class Segmentation:
         return self.source.start_seconds + frame / self.frame_rate
 
 
-def in_order_of_appearance(labels: Int[np.ndarray, "frames"]) -> Int[np.ndarray, "frames"]:
+def number_by_appearance(labels: Int[np.ndarray, "frames"]) -> Int[np.ndarray, "frames"]:
     """The same grouping with labels 0, 1, … in the order in which they first appear."""
     _, first, inverse = np.unique(labels, return_index=True, return_inverse=True)
     rank = np.empty(len(first), dtype=np.int64)

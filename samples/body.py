@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from samples.skeleton import BIND, HUMAN
-from samples.surface import Limb, Surface, skin
-from samples.weights import heat_weights, strongest
+from caesura.samples.skeleton import BIND, HUMAN
+from caesura.samples.surface import Limb, Surface, skin
+from caesura.samples.weights import heat_weights, strongest
 
 CELL = 0.03  # metres: about 6,000 triangles
 SHARPNESS = 0.4

@@ -4,11 +4,11 @@ from functools import cache
 
 import numpy as np
 
-from samples.body import body
-from samples.model import rigid_glb, smooth_glb
-from samples.parts import parts
-from samples.repertoire import MOTIONS
-from samples.take import RATE, Part, Sample, perform
+from caesura.samples.body import body
+from caesura.samples.model import rigid_glb, smooth_glb
+from caesura.samples.parts import parts
+from caesura.samples.repertoire import MOTIONS
+from caesura.samples.take import RATE, Part, Sample, perform
 
 CHOREOGRAPHIES = {
     "smooth": (

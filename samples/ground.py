@@ -3,8 +3,8 @@
 import numpy as np
 from jaxtyping import Float
 
-from samples.motions import DRIVES, Course
-from samples.skeleton import HUMAN
+from caesura.samples.motions import DRIVES, Course
+from caesura.samples.skeleton import HUMAN
 
 SOLE = (("foot", (0.0, -0.085, -0.06)), ("toes", (0.0, -0.03, 0.02)))  # heel and ball: metres from the joint
 PRESS = 0.012  # metres: feet this much higher than the lowest carry little

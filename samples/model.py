@@ -3,11 +3,11 @@
 import numpy as np
 from jaxtyping import Float
 
-from core.formats.gltf.writer import Channel, GlbWriter, Primitive
-from samples.body import Body
-from samples.parts import Part
-from samples.skeleton import BIND, HUMAN, quaternions
-from samples.take import Take
+from caesura.formats.gltf.writer import Channel, GlbWriter, Primitive
+from caesura.samples.body import Body
+from caesura.samples.parts import Part
+from caesura.samples.skeleton import BIND, HUMAN, quaternions
+from caesura.samples.take import Take
 
 
 def smooth_glb(body: Body, take: Take) -> bytes:

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.interpolate import PchipInterpolator
 
-from samples.skeleton import AXES, HUMAN, JOINTS, straight
+from caesura.samples.skeleton import AXES, HUMAN, JOINTS, straight
 
 Keys = Sequence[tuple[float, float]]  # (phase in [0, 1), value), read as a periodic curve
 DRIVES = ("lift", "speed", "turn", "slide")  # metres off the ground; metres/s forward; degrees/s; share not planted

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from samples.body import body
-from samples.model import smooth_glb
-from samples.motions import Motion
-from samples.repertoire import MOTIONS, STILL, T_POSE
-from samples.take import RATE, Part, Sample, perform
+from caesura.samples.body import body
+from caesura.samples.model import smooth_glb
+from caesura.samples.motions import Motion
+from caesura.samples.repertoire import MOTIONS, STILL, T_POSE
+from caesura.samples.take import RATE, Part, Sample, perform
 
 SEED = 72
 PLAYED = (

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
+from scipy.spatial.transform import Rotation
 
 # Joint, parent, place when standing straight with hanging arms: metres, y up, facing +z, the left side at +x.
 TRUNK = (
@@ -78,27 +79,8 @@ class Skeleton:
 
 
 def quaternions(rotations: Float[np.ndarray, "frames 3 3"]) -> Float[np.ndarray, "frames 4"]:
-    """Unit quaternions (x, y, z, w) of a course of rotations, with signs that never jump between frames.
-
-    Shepperd's method: the largest of the four squares is divided by, so that no precision is lost.
-    """
-    m = rotations
-    trace = np.trace(m, axis1=1, axis2=2)
-    diagonal = np.diagonal(m, axis1=1, axis2=2)
-    squares = np.concatenate([1 - trace[:, None] + 2 * diagonal, 1 + trace[:, None]], axis=1)  # 4x², 4y², 4z², 4w²
-    xy, xz, yz = m[:, 0, 1] + m[:, 1, 0], m[:, 0, 2] + m[:, 2, 0], m[:, 1, 2] + m[:, 2, 1]
-    wx, wy, wz = m[:, 2, 1] - m[:, 1, 2], m[:, 0, 2] - m[:, 2, 0], m[:, 1, 0] - m[:, 0, 1]
-    products = np.array(
-        [
-            [squares[:, 0], xy, xz, wx],
-            [xy, squares[:, 1], yz, wy],
-            [xz, yz, squares[:, 2], wz],
-            [wx, wy, wz, squares[:, 3]],
-        ]
-    )  # 4 q_i q_j
-    largest = squares.argmax(axis=1)
-    q: Float[np.ndarray, "frames 4"] = products[largest, :, np.arange(len(m))]
-    q /= np.linalg.norm(q, axis=1, keepdims=True)
+    """Unit quaternions (x, y, z, w) of a course of rotations, with signs that never jump between frames."""
+    q: Float[np.ndarray, "frames 4"] = Rotation.from_matrix(rotations).as_quat()
     flips = np.where((q[1:] * q[:-1]).sum(axis=1) < 0, -1.0, 1.0)
     q *= np.concatenate([[1.0], np.cumprod(flips)])[:, None]
     return q

@@ -7,9 +7,9 @@ from itertools import pairwise
 import numpy as np
 from jaxtyping import Float
 
-from samples.ground import feet_to_ground, root
-from samples.motions import DRIVES, Course, Motion
-from samples.skeleton import HUMAN, JOINTS, quaternions
+from caesura.samples.ground import feet_to_ground, root
+from caesura.samples.motions import DRIVES, Course, Motion
+from caesura.samples.skeleton import HUMAN, JOINTS, quaternions
 
 RATE = 30.0
 FADE = 8  # frames of a cross-fade on each side of a cut: half a second in all

@@ -5,7 +5,7 @@ from jaxtyping import Float, Int
 from scipy.sparse import csc_matrix, diags
 from scipy.sparse.linalg import splu
 
-from samples.surface import Limb, Surface
+from caesura.samples.surface import Limb, Surface
 
 INFLUENCES = 4  # what every engine supports
 

@@ -7,17 +7,18 @@ from importlib.metadata import version
 from fastapi import Depends, FastAPI
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 
-from service import failures, openapi
-from service.backend import opened
-from service.guard import Guard
-from service.headroom import Headroom, room
-from service.metrics import Metrics
-from service.queries import only_known
-from service.request_log import RequestLog
-from service.routes import about, animations, clips, health, pages, results, revisions, segmentations, session
-from service.security import SecurityHeaders
-from service.settings import ServiceSettings
-from service.short_way import ShortWay
+from caesura.service.api_description import openapi
+from caesura.service.auth.middleware import AuthenticationMiddleware
+from caesura.service.backend import open_backend
+from caesura.service.http.query_names import refuse_unknown_names
+from caesura.service.http.security_headers import SecurityHeadersMiddleware
+from caesura.service.metrics import Metrics
+from caesura.service.problems import exception_handlers
+from caesura.service.request_log import RequestLogMiddleware
+from caesura.service.routes import about, animations, clips, health, pages, results, revisions, segmentations, session
+from caesura.service.settings import ServiceSettings
+from caesura.service.uploads.body_limit import BodyLimit
+from caesura.service.uploads.capacity import Capacity, require_capacity
 
 FILES = ("application/octet-stream", "application/x-npz", "application/zip", "model/*")
 """Served by Range, or packed already: a compressed form would be another file."""
@@ -28,7 +29,7 @@ def create_app(settings: ServiceSettings) -> FastAPI:
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        async with opened(settings) as backend:
+        async with open_backend(settings) as backend:
             app.state.backend = backend
             yield
 
@@ -38,19 +39,20 @@ def create_app(settings: ServiceSettings) -> FastAPI:
         lifespan=lifespan,
         docs_url=None,  # FastAPI's page loads scripts from another site
         redoc_url=None,
+        redirect_slashes=False,  # a redirect would go to whatever host the client names
         generate_unique_id_function=openapi.operation_name,
     )
-    app.state.headroom = Headroom()
+    app.state.headroom = Capacity()
     app.state.metrics = Metrics()
-    failures.install(app)
+    exception_handlers.install_handlers(app)
     for routes in (animations, segmentations, results, revisions, clips, session, about, health):
-        app.include_router(routes.router, dependencies=[Depends(only_known), Depends(room)])
+        app.include_router(routes.router, dependencies=[Depends(refuse_unknown_names), Depends(require_capacity)])
     app.include_router(pages.router)
     pages.mount(app)
     openapi.describe(app)
+    app.add_middleware(BodyLimit, upload_bytes=settings.max_upload_bytes)
     app.add_middleware(GZipMiddleware, compresslevel=6, exclude_content_types=(*DEFAULT_EXCLUDED_CONTENT_TYPES, *FILES))
-    app.add_middleware(ShortWay)
-    app.add_middleware(Guard, settings=settings)
-    app.add_middleware(SecurityHeaders)
-    app.add_middleware(RequestLog, metrics=app.state.metrics)
+    app.add_middleware(AuthenticationMiddleware, settings=settings)
+    app.add_middleware(SecurityHeadersMiddleware)
+    app.add_middleware(RequestLogMiddleware, metrics=app.state.metrics)
     return app

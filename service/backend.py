@@ -12,19 +12,19 @@ from anyio import CancelScope, move_on_after, to_thread
 from fastapi import Depends, Request
 from redis.exceptions import RedisError
 
-from service.errors import Refusal
-from service.key_file import KeyFile
-from service.seats import Seats
-from service.settings import ServiceSettings
-from service.told import Told, told
-from worker import ids
-from worker.async_records import AsyncRecords
-from worker.blobs import Blobs
-from worker.connection import connect
-from worker.jobs import Jobs
-from worker.layout import check_layout
-from worker.leftovers import clear
-from worker.schema import AnimationRecord, SegmentationRecord
+from caesura.service.api_keys.key_file import KeyFile
+from caesura.service.http.stream_limit import StreamLimit
+from caesura.service.problems.status_table import Refusal
+from caesura.service.settings import ServiceSettings
+from caesura.worker.private_folder import make_private
+from caesura.worker.queue.jobs import Jobs
+from caesura.worker.records import content_ids
+from caesura.worker.records.async_records import AsyncRecords
+from caesura.worker.records.connection import connect
+from caesura.worker.records.layout_version import check_layout
+from caesura.worker.records.schema import AnimationRecord, SegmentationRecord
+from caesura.worker.store.blobs import Blobs
+from caesura.worker.store.temporary_files import delete_abandoned_files
 
 
 @dataclass
@@ -36,13 +36,13 @@ class Backend:
     jobs: Jobs
     blobs: Blobs
     key_file: KeyFile
-    seats: Seats = field(default_factory=Seats)
+    seats: StreamLimit = field(default_factory=StreamLimit)
     _waits: set[CancelScope] = field(default_factory=set)
 
     @cached_property
     def secret(self) -> bytes:
         """The key of all ids. Blocks at first use: Redis need not be up when the process starts."""
-        return ids.installation_secret(self.jobs.redis, self.settings.secret)
+        return content_ids.installation_secret(self.jobs.redis, self.settings.secret)
 
     @property
     def spool(self) -> Path:
@@ -58,22 +58,13 @@ class Backend:
 
     async def segmentation(self, identifier: str, owner: str) -> SegmentationRecord:
         """The segmentation, or the refusal to say whether it exists."""
-        return (await self.told(identifier, owner)).record
-
-    async def told(self, identifier: str, owner: str) -> Told:
-        """The segmentation and its status document, or the refusal to say whether it exists."""
-        known = await self.known(identifier, owner)
-        if known is None:
+        record = await self.records.owned_segmentation(identifier, owner)
+        if record is None:
             raise Refusal("not-found", f"There is no segmentation {identifier}. It may have been deleted.")
-        return known
-
-    async def known(self, identifier: str, owner: str) -> Told | None:
-        """The same; None where there is none, or it is another's: for both the same is looked up."""
-        stored = await self.records.owned_segmentation(identifier, owner)
-        return None if stored is None else told(stored)
+        return record
 
     @contextmanager
-    def patience(self, seconds: float = math.inf) -> Iterator[CancelScope]:
+    def limited_wait(self, seconds: float = math.inf) -> Iterator[CancelScope]:
         """A wait of at most `seconds`; ended before where the process is told to stop."""
         with move_on_after(seconds) as scope:
             self._waits.add(scope)
@@ -87,12 +78,12 @@ class Backend:
         for scope in self._waits:
             scope.cancel()
 
-    async def awaited(self, record: SegmentationRecord, seconds: float | None) -> SegmentationRecord:
+    async def wait_until_settled(self, record: SegmentationRecord, seconds: float | None) -> SegmentationRecord:
         """The record once it is no longer live, or as it is after `seconds`."""
         if not seconds or not record.live:
             return record
         ended: SegmentationRecord | None = None
-        with self.patience(seconds):
+        with self.limited_wait(seconds):
             ended = await self.records.ended(record.id)
         return ended or await self.segmentation(record.id, record.owner)
 
@@ -105,17 +96,20 @@ class Backend:
 
 
 @asynccontextmanager
-async def opened(settings: ServiceSettings) -> AsyncIterator[Backend]:
+async def open_backend(settings: ServiceSettings) -> AsyncIterator[Backend]:
     """The backend, until the process ends."""
     records = AsyncRecords(settings.redis_location)
     client = connect(settings.redis_location)
     jobs = Jobs(client, settings.attempts, settings.job_seconds, settings.max_queued)
     try:
+        make_private(settings.data_dir)
         blobs = Blobs.open(settings.store_location, settings.scratch_dir)
         backend = Backend(settings, records, jobs, blobs, KeyFile(settings.keys_file))
         with suppress(RedisError):  # it need not be up yet; the workers look too
             await to_thread.run_sync(check_layout, client)
-        await to_thread.run_sync(clear, backend.spool)  # of a process that was killed; what another one writes is held
+        await to_thread.run_sync(
+            delete_abandoned_files, backend.spool
+        )  # of a process that was killed; what another one writes is held
         yield backend
     finally:
         await records.close()
@@ -128,4 +122,4 @@ async def backend_of(request: Request) -> Backend:
     return backend
 
 
-Behind = Annotated[Backend, Depends(backend_of)]
+BackendDependency = Annotated[Backend, Depends(backend_of)]

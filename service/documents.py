@@ -4,29 +4,30 @@ from typing import Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from core.document import Segment
-from worker.schema import AnimationRecord, RevisionRecord, SegmentationRecord, Status, TakeSummary
+from caesura.core.document import Segment
+from caesura.worker.records.schema import AnimationRecord, RevisionRecord, SegmentationRecord, Status, TakeSummary
 
 
 class _Answer(BaseModel):
     model_config = ConfigDict(frozen=True)
 
 
-class AnimationDocument(_Answer):
+class AnimationSummary(_Answer):
     """An uploaded file, as its header describes it; null is what a header does not tell."""
 
     id: str
     name: str
     format: str
     bytes: int
-    takes: tuple[TakeSummary, ...]
+    take_count: int
+    duration_seconds: float | None = Field(description="of the longest take")
     vertices: int | None
     triangles: int | None
     created: float = Field(description="seconds since 1970")
     links: dict[str, str]
 
     @classmethod
-    def of(cls, record: AnimationRecord) -> Self:
+    def of(cls, record: AnimationRecord, **more: Any) -> Self:
         """The answer for a record."""
         here = f"/v1/animations/{record.id}"
         return cls(
@@ -34,18 +35,26 @@ class AnimationDocument(_Answer):
             name=record.name,
             format=record.format,
             bytes=sum(part.bytes for part in record.parts),
-            takes=record.takes,
+            take_count=record.take_count,
+            duration_seconds=record.seconds,
             vertices=record.vertices,
             triangles=record.triangles,
             created=record.created,
             links={"self": here, "file": f"{here}/file", "segmentations": f"/v1/segmentations?animation={record.id}"},
+            **more,
         )
 
 
-class AnimationPage(_Answer):
-    """Animations, newest first; `next` is the address of the page after this one."""
+class AnimationDocument(AnimationSummary):
+    """The same with its takes, of which there may be thousands."""
 
-    animations: tuple[AnimationDocument, ...]
+    takes: tuple[TakeSummary, ...]
+
+
+class AnimationPage(_Answer):
+    """Animations without their takes, newest first; `next` is the address of the page after this one."""
+
+    animations: tuple[AnimationSummary, ...]
     next: str | None = None
 
 
@@ -68,7 +77,7 @@ class StatusDocument(_Answer):
     problem: dict[str, Any] | None
     motions: int | None
     frames: int | None
-    segments: tuple[Segment, ...] | None
+    segments: tuple[Segment, ...] | None = Field(description="null in a list")
     revision: int = Field(0, description="the newest revision; 0 while nobody has edited the result")
     links: dict[str, str]
 
@@ -93,7 +102,7 @@ class StatusDocument(_Answer):
 
 
 class SegmentationPage(_Answer):
-    """Segmentations of one animation, newest first; `next` is the address of the page after this one."""
+    """Segmentations without their segments, newest first; `next` is the address of the page after this one."""
 
     segmentations: tuple[StatusDocument, ...]
     next: str | None = None

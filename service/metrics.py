@@ -1,6 +1,7 @@
 """What Prometheus reads: this process's requests, and what Redis knows of queues, jobs, stages and the store.
 
-What workers count is kept in Redis (`worker.tallies`) and told by every web process alike: take `max` over
+What workers count is kept in Redis (`caesura.worker.records.counters`) and told by every web process alike:
+take `max` over
 several, not `sum`. Requests are each process's own: those are summed.
 """
 
@@ -11,9 +12,9 @@ from prometheus_client import CollectorRegistry, Counter, Histogram, ProcessColl
 from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, HistogramMetricFamily, Metric
 from prometheus_client.registry import Collector
 
-from service.backend import Backend
-from worker import keys, tallies
-from worker.connection import names
+from caesura.service.backend import Backend
+from caesura.worker.records import counters, redis_keys
+from caesura.worker.records.connection import names
 
 METHODS = frozenset({"GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS"})
 LATENCY_BUCKETS = (0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 1, 5, 30)
@@ -70,8 +71,8 @@ class _Shared(Collector):
         """Gauges first, then what the workers counted."""
         redis, settings = self._backend.jobs.redis, self._backend.settings
         memory = redis.info("memory")
-        stored = redis.hgetall(keys.STORE_KEY)
-        told = tallies.read(redis.hgetall(keys.TALLY_KEY))
+        stored = redis.hgetall(redis_keys.STORE_KEY)
+        told = counters.read_counters(redis.hgetall(redis_keys.COUNTERS_KEY))
         yield _gauge("queue_jobs", "Jobs that wait in a queue.", "queue", self._backend.jobs.queues.depths())
         yield _gauge(
             "store_bytes",
@@ -80,7 +81,11 @@ class _Shared(Collector):
             dict(zip(names(stored), map(int, stored.values()), strict=True)),
         )
         for name, help_, value in (
-            ("live_segmentations", "Segmentations that are queued or running.", redis.scard(keys.LIVE_KEY)),
+            (
+                "live_segmentations",
+                "Segmentations that are queued or running.",
+                redis.scard(redis_keys.LIVE_SEGMENTATIONS_KEY),
+            ),
             ("redis_used_bytes", "Memory that Redis uses.", memory["used_memory"]),
             ("redis_limit_bytes", "Memory that Redis may use; 0: all of its machine.", memory.get("maxmemory", 0)),
             ("disk_free_bytes", "Free on the disk of the data folder.", shutil.disk_usage(settings.data_dir).free),
@@ -99,14 +104,14 @@ def _gauge(name: str, help_: str, label: str, values: dict[str, int]) -> Metric:
     return family
 
 
-def _counter(name: str, help_: str, labels: list[str], told: "Told") -> Metric:
+def _counter(name: str, help_: str, labels: list[str], told: "WorkerCounters") -> Metric:
     family = CounterMetricFamily(f"caesura_{name}", help_, labels=labels)
     for given, value in told.get(name, ()):
         family.add_metric([given.get(label, "") for label in labels], value)
     return family
 
 
-def _histogram(name: str, help_: str, label: str, told: "Told") -> Metric:
+def _histogram(name: str, help_: str, label: str, told: "WorkerCounters") -> Metric:
     """Buckets are kept one by one, and told as Prometheus wants them: each with all that are smaller."""
     family = HistogramMetricFamily(f"caesura_{name}_seconds", help_, labels=[label])
     counts: dict[str, dict[str, float]] = {}
@@ -115,11 +120,11 @@ def _histogram(name: str, help_: str, label: str, told: "Told") -> Metric:
     sums = {given[label]: total for given, total in told.get(f"{name}_sum", ())}
     for value, kept in sorted(counts.items()):
         ends, below = [], 0.0
-        for end in tallies.BUCKETS:
+        for end in counters.BUCKETS:
             below += kept.get(f"{end:g}", 0.0)
-            ends.append(("+Inf" if end == tallies.BUCKETS[-1] else f"{end:g}", below))
+            ends.append(("+Inf" if end == counters.BUCKETS[-1] else f"{end:g}", below))
         family.add_metric([value], buckets=ends, sum_value=sums.get(value, 0.0))
     return family
 
 
-Told = dict[str, list[tuple[dict[str, str], float]]]
+WorkerCounters = dict[str, list[tuple[dict[str, str], float]]]

@@ -9,8 +9,8 @@ import time
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from service.metrics import Metrics
-from worker import logs
+from caesura.service.metrics import Metrics
+from caesura.worker import logs
 
 log = logging.getLogger("service.requests")
 
@@ -24,7 +24,7 @@ POLLED = frozenset({"/healthz", "/readyz", "/metrics", "/v1/segmentations/{ident
 """Asked again and again, by probes and by everyone who waits: counted, and told only where they fail."""
 
 
-class RequestLog:
+class RequestLogMiddleware:
     """The outermost layer: it sees what everything below has answered."""
 
     def __init__(self, app: ASGIApp, metrics: Metrics) -> None:
@@ -38,7 +38,7 @@ class RequestLog:
             return
         headers = Headers(scope=scope)
         began, status, seconds = time.perf_counter(), NO_ANSWER, 0.0
-        with logs.about(request=logs.safe_request_id(headers.get(HEADER, ""))):
+        with logs.log_context(request=logs.safe_request_id(headers.get(HEADER, ""))):
 
             async def watch(message: Message) -> None:
                 nonlocal status, seconds

@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from worker.settings import WorkerSettings
+from caesura.worker.settings import WorkerSettings
 
 REQUESTS_A_MINUTE = 1200
 """Where keys are needed and nothing else is said: twenty a second, more than the page asks for while it plays."""
@@ -23,6 +23,10 @@ class ServiceSettings(WorkerSettings):
     )
     keys_file: Path | None = Field(None, description="file of further keys, such as a mounted secret")
     public_hosts: str = Field("", description="names that browsers reach the service by, with commas between")
+    proxies: str = Field(
+        "",
+        description="addresses or networks of proxies whose `X-Forwarded-For` is believed, with commas between",
+    )
     requests_a_minute: int = Field(
         -1, ge=-1, description="from one key and address; 0: no limit; -1: 1,200 where keys are needed, else no limit"
     )

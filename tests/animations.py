@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.animation import Animation, Take
+from caesura.core.animation import Animation, Take
 
 RATE = 30.0
 

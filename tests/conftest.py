@@ -21,9 +21,12 @@ def hooked_modules() -> list[str]:
     Leaf by leaf, for a package's name would take its kernels in, and the hook breaks compiled functions.
     """
     return [
-        ".".join(path.relative_to(CHECKOUT).with_suffix("").parts)
-        for path in sorted((CHECKOUT / "core").rglob("*.py"))
-        if path.stem not in {"__init__", "kernels"} and "from jaxtyping" in path.read_text(encoding="utf-8")
+        "caesura." + ".".join(path.relative_to(CHECKOUT).with_suffix("").parts)
+        for folder in ("core", "formats")
+        for path in sorted((CHECKOUT / folder).rglob("*.py"))
+        if path.stem != "__init__"
+        and path.parent.name != "kernels"
+        and "from jaxtyping" in path.read_text(encoding="utf-8")
     ]
 
 

@@ -13,15 +13,14 @@ from pathlib import Path
 import numpy as np
 import redis
 
-from core.parameters import ALGORITHM, Parameters
+from caesura.core.parameters import ALGORITHM, Parameters
+from caesura.worker.queue.jobs import Jobs
+from caesura.worker.records import Records, content_ids
+from caesura.worker.records.connection import connect
+from caesura.worker.records.schema import AnimationRecord, Part, SegmentationRecord
+from caesura.worker.settings import WorkerSettings
+from caesura.worker.store.blobs import Blobs
 from tests.animations import performing_bar
-from worker import ids
-from worker.blobs import Blobs
-from worker.connection import connect
-from worker.jobs import Jobs
-from worker.records import Records
-from worker.schema import AnimationRecord, Part, SegmentationRecord
-from worker.settings import WorkerSettings
 
 SECRET = b"of the tests"
 
@@ -58,7 +57,7 @@ class Installation:
     def upload(self, content):
         """A new animation, even of the same bytes."""
         key = self.blobs.put(content, "uploads")
-        identifier = ids.animation_id(SECRET, "", [("take", len(content), key)])
+        identifier = content_ids.animation_id(SECRET, "", [("take", len(content), key)])
         part = Part(name="take", key=key, bytes=len(content))
         record = AnimationRecord(id=identifier, name="take", format="npz", parts=(part,), created=time.time())
         return self.records.animations.add(record)[0]
@@ -67,7 +66,7 @@ class Installation:
         parameters = Parameters(method=method, **given)
         now = time.time()
         return SegmentationRecord(
-            id=ids.segmentation_id(SECRET, animation.id, parameters.canonical(), ALGORITHM),
+            id=content_ids.segmentation_id(SECRET, animation.id, parameters.canonical(), ALGORITHM),
             animation=animation.id,
             parameters=parameters.model_dump(),
             algorithm=ALGORITHM,
@@ -98,11 +97,11 @@ class Installation:
 
 
 class Pool:
-    """`python -m worker` in a process of its own."""
+    """`python -m caesura.worker` in a process of its own."""
 
     def __init__(self, settings, *arguments):
         environment = {**os.environ, **settings.environment()}
-        command = [sys.executable, "-m", "worker", *arguments]
+        command = [sys.executable, "-m", "caesura.worker", *arguments]
         self.process = subprocess.Popen(command, env=environment, start_new_session=True)
 
     def stop(self):

@@ -12,16 +12,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from service.commands.local_service import local_service
+from caesura.samples.figures import figure
+from caesura.service.commands.local_service import local_service
 
 FRAMES = 300
 CUT = 150
 
 
-def caesura(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    """Run the installed command."""
+def caesura(*arguments: str | Path, memory_bytes: int = 0) -> subprocess.CompletedProcess[str]:
+    """Run the installed command, with so much address space where it is given."""
     program = Path(sys.executable).parent / "caesura"
-    return subprocess.run([program, *arguments], check=False, capture_output=True, text=True, timeout=120)
+    bounded = ["sh", "-c", f'ulimit -v {memory_bytes // 1024} && exec "$@"', "sh"] if memory_bytes else []
+    return subprocess.run([*bounded, program, *arguments], check=False, capture_output=True, text=True, timeout=120)
 
 
 @pytest.fixture(scope="module")
@@ -81,6 +83,20 @@ def test_help_answers_at_once() -> None:
     )
     run = subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True)
     assert run.stdout == "set()\n"
+
+
+def test_a_glb_loads_no_library_that_it_does_not_need(tmp_path: Path) -> None:
+    """By the default method: no trimesh, no scikit-learn, and of SciPy nothing but the algebra that Numba asks for."""
+    (tmp_path / "rigid.glb").write_bytes(figure("rigid").glb)
+    script = (
+        "import sys; from caesura.service.commands.cli import main; main(sys.argv[1:], standalone_mode=False);"
+        "unneeded = {'trimesh', 'sklearn', 'scipy.stats', 'scipy.spatial', 'scipy.optimize', 'scipy.ndimage',"
+        " 'scipy.sparse'};"
+        "print(sorted(unneeded & set(sys.modules)))"
+    )
+    arguments = ["segment", str(tmp_path / "rigid.glb"), "--motions", "6"]
+    run = subprocess.run([sys.executable, "-c", script, *arguments], check=True, capture_output=True, text=True)
+    assert run.stdout.splitlines()[-1] == "[]"
 
 
 def test_segments_tile_the_take(document: dict[str, Any]) -> None:
@@ -262,3 +278,51 @@ def test_one_file_of_clips_is_of_one_animation(folder: Path) -> None:
     run = caesura("segment", folder / "take.npz", folder / "empty.glb", "--clips", folder / "out.zip")
     assert run.returncode == 2
     assert "one animation at a time" in run.stderr
+
+
+@pytest.mark.parametrize(
+    "segments",
+    [
+        [{"label": "a", "start": 0, "end": 10**10}],
+        [{"label": "a", "start": 0, "end": 2 * 10**9}],
+        [{"label": number, "start": number, "end": number + 1} for number in range(20_000)],
+    ],
+    ids=["ten billion frames", "two billion frames", "twenty thousand labels"],
+)
+def test_a_truth_too_large_to_compare_is_refused_in_a_sentence(tmp_path: Path, segments: list[dict[str, Any]]) -> None:
+    """The file is small; what it states would take gigabytes. The process may have four of them."""
+    truth = tmp_path / "truth.json"
+    truth.write_text(json.dumps({"fps": 30, "frames": segments[-1]["end"], "segments": segments}))
+    run = caesura("score", truth, truth, memory_bytes=2**32)
+    assert run.returncode == 3
+    assert "more than 1000000000 frames or 1000 labels. [not-a-labelling]" in run.stderr
+
+
+def test_a_long_truth_is_compared_by_its_segments(tmp_path: Path) -> None:
+    """A year of frames takes no more memory than its segments."""
+    parts = [{"label": label, "start": label * 10**8, "end": (label + 1) * 10**8} for label in range(10)]
+    (tmp_path / "truth.json").write_text(json.dumps({"fps": 30, "frames": 10**9, "segments": parts}))
+    parts[1:3] = [{"label": 2, "start": 10**8, "end": 3 * 10**8}]
+    (tmp_path / "result.json").write_text(json.dumps({"fps": 30, "frames": 10**9, "segments": parts}))
+    run = caesura("score", tmp_path / "result.json", tmp_path / "truth.json", "--json", memory_bytes=2**32)
+    assert run.returncode == 0, run.stderr
+    figures = json.loads(run.stdout)
+    assert figures["frame_accuracy"] == 0.9
+    assert figures["boundary_f1_0.5_s"] == pytest.approx(16 / 17)
+
+
+def test_control_characters_of_names_are_shown_and_not_sent(folder: Path, tmp_path: Path) -> None:
+    """A name that others chose cannot clear the terminal, colour it or start a line, in a result or in a refusal."""
+    name = "\x1b[2J\nwalk\u202e"
+    (tmp_path / f"{name}.npz").write_bytes((folder / "take.npz").read_bytes())
+    (tmp_path / f"{name}.glb").write_text("no model")
+    runs = [
+        caesura("segment", tmp_path / f"{name}.npz", "--motions", "2"),
+        caesura("segment", tmp_path / f"{name}.npz", tmp_path / f"{name}.glb", "--out", tmp_path / "out"),
+        caesura("segment", tmp_path / f"{name}.npz", "--csv", tmp_path / name / "table.csv"),
+    ]
+    for run in runs:
+        said = run.stdout + run.stderr
+        assert r"\x1b[2J\nwalk\u202e" in said
+        assert not {"\x1b", "\u202e"} & set(said)
+        assert "\nwalk" not in said

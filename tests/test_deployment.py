@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 import yaml
 
-from service.cli import main
-from service.settings import ServiceSettings
+from caesura.service.commands.cli import main
+from caesura.service.settings import ServiceSettings
+from caesura.worker.queue.queues import QUEUES
 from tests.test_settings_table import variable
-from worker.queues import QUEUES
 
 USER = 10001
 
@@ -88,9 +88,25 @@ def test_compose_scales_workers_and_writes_only_to_its_volume(compose: dict[str,
     for name in ("web", "worker"):
         assert compose[name]["read_only"] is True
         assert compose[name]["cap_drop"] == ["ALL"]
-        assert compose[name]["environment"]["REDIS_URL"] == "redis://redis:6379/0"
     assert compose["web"]["ports"] == ["127.0.0.1:8000:8000"]
     assert "noeviction" in compose["redis"]["command"]
+
+
+def test_redis_wants_a_password(objects: dict[str, Any], compose: dict[str, Any], checkout: Path) -> None:
+    """In both files and on the page; without one nothing starts, and no password stands in a file of this project."""
+    demanded = re.compile(r"\$\{REDIS_PASSWORD:\?")
+    command = compose["redis"]["command"]
+    assert demanded.match(command[command.index("--requirepass") + 1])
+    assert demanded.match(compose["redis"]["environment"]["REDIS_PASSWORD"])
+    for name in ("web", "worker"):
+        assert re.fullmatch(
+            r"redis://:\$\{REDIS_PASSWORD:\?.*\}@redis:6379/0", compose[name]["environment"]["REDIS_URL"]
+        )
+    secret = objects["Secret caesura"]["stringData"]
+    assert secret["REDIS_URL"].startswith(f"redis://:{secret['REDIS_PASSWORD']}@")
+    (trigger,) = objects["ScaledObject caesura-worker"]["spec"]["triggers"]
+    assert trigger["metadata"]["passwordFromEnv"] == "REDIS_PASSWORD"
+    assert "REDIS_URL=redis://:" in (checkout / "docs" / "operations.md").read_text(encoding="utf-8")
 
 
 def test_the_image_runs_as_the_same_number(checkout: Path) -> None:

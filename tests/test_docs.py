@@ -7,11 +7,11 @@ from urllib.parse import unquote
 import numpy as np
 import pytest
 
-from core.errors import KINDS
-from service.app import create_app
-from service.cli import main
-from service.errors import STATUS
-from service.settings import ServiceSettings
+from caesura.core.errors import ERROR_KINDS
+from caesura.service.app import create_app
+from caesura.service.commands.cli import main
+from caesura.service.problems.status_table import STATUS_OF_CODE
+from caesura.service.settings import ServiceSettings
 
 PAGES = sorted(p.relative_to(Path(__file__).parent.parent) for p in Path(__file__).parent.parent.glob("docs/*.md"))
 PAGES += [Path("README.md"), Path("CHANGELOG.md")]
@@ -97,12 +97,12 @@ def test_every_problem_is_documented(checkout: Path) -> None:
     page = (checkout / "docs/api.md").read_text(encoding="utf-8").partition("## Problems")[2]
     raised = {
         code
-        for folder in ("core", "service", "worker")
+        for folder in ("core", "formats", "service", "worker")
         for path in (checkout / folder).rglob("*.py")
         if "commands" not in path.parts
         for code in RAISED.findall(path.read_text(encoding="utf-8"))
     }
-    codes = {code for code in STATUS if code not in {*KINDS, "request", "worker"}}
+    codes = {code for code in STATUS_OF_CODE if code not in {*ERROR_KINDS, "request", "worker"}}
     assert {code for code in raised | codes if f"`{code}`" not in page} == set()
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from samples.figures import figure
-from service.commands.local_service import local_service
+from caesura.samples.figures import figure
+from caesura.service.commands.local_service import local_service
 from tests.installation import take_npz
 
 

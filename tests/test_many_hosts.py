@@ -11,11 +11,12 @@ import httpx
 import pytest
 import redis
 
+from caesura.worker.embedded_redis.server import find_program
 from tests.installation import SLOWLY, take_npz
 from tests.object_store import BUCKET, ObjectStore, free_port
-from worker.redis_server import find_program
 
 WAIT_SECONDS = 90
+PASSWORD = "0123456789abcdef"
 
 
 class Host:
@@ -101,11 +102,12 @@ class Web(Host):
 
 @pytest.fixture(scope="module")
 def redis_tcp(tmp_path_factory):
-    """A Redis server of its own, over TCP, as on another host."""
+    """A Redis server of its own, over TCP and with a password, as on another host."""
     port = free_port()
     options = ["--port", str(port), "--bind", "127.0.0.1", "--save", "", "--dir", str(tmp_path_factory.mktemp("redis"))]
+    options += ["--requirepass", PASSWORD]
     process = subprocess.Popen([find_program(), *options], stdout=subprocess.DEVNULL, start_new_session=True)
-    with redis.Redis(port=port) as client:
+    with redis.Redis(port=port, password=PASSWORD) as client:
         while True:
             try:
                 client.ping()
@@ -113,7 +115,7 @@ def redis_tcp(tmp_path_factory):
             except redis.ConnectionError:
                 assert process.poll() is None
                 time.sleep(0.02)
-    yield f"redis://127.0.0.1:{port}/0"
+    yield f"redis://:{PASSWORD}@127.0.0.1:{port}/0"
     process.kill()
     process.wait()
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from pydantic.fields import FieldInfo
 
-from service.settings import ServiceSettings
+from caesura.service.settings import ServiceSettings
 
 TABLE = re.compile(r"<!-- settings: [^>]*-->\n(.*?)\n?<!-- end of settings -->", re.DOTALL)
 

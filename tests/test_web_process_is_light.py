@@ -7,10 +7,10 @@ HEAVY = ("numpy", "PIL", "numba", "scipy", "sklearn", "trimesh", "threadpoolctl"
 
 PROGRAM = f"""
 import sys
-from service.app import create_app
-from service.settings import ServiceSettings
+from caesura.service.app import create_app
+from caesura.service.settings import ServiceSettings
 create_app(ServiceSettings(data_dir="/nonexistent")).openapi()
-import service.__main__
+import caesura.service.__main__
 print([name for name in {HEAVY!r} if name in sys.modules])
 """
 

@@ -4,7 +4,7 @@ import json
 import subprocess
 import sys
 
-from service.commands.outputs import FORMS
+from caesura.service.commands.outputs import OUTPUT_FORMATS
 from tests.installation import take_npz
 
 MISSING_MODULES = ("fcntl", "resource", "pwd", "grp", "termios", "pty", "syslog")
@@ -37,8 +37,8 @@ def run(program, *arguments):
 def test_every_module_of_core_can_be_imported():
     """And of the samples; the blocks are in force, as the attempt at one shows."""
     program = """
-import core, samples
-for package in (core, samples):
+import caesura.core, caesura.formats, caesura.samples
+for package in (caesura.core, caesura.formats, caesura.samples):
     for found in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
         importlib.import_module(found.name)
 print(hasattr(os, "fork"), end=" ")
@@ -53,10 +53,10 @@ def test_files_are_segmented(tmp_path, monkeypatch):
     """`caesura segment`, by a pattern, printed and written in every form."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "take.npz").write_bytes(take_npz())
-    forms = [f"--{form.replace('_', '-')}" for form in FORMS]
+    forms = [f"--{form.replace('_', '-')}" for form in OUTPUT_FORMATS]
     command = ["segment", "*.npz", "--motions", "2", "--json", "--out", "out", *forms]
-    ended = run("from service.cli import main\nmain(sys.argv[1:])", *command)
+    ended = run("from caesura.service.commands.cli import main\nmain(sys.argv[1:])", *command)
     assert ended.returncode == 0, ended.stderr
     assert json.loads(ended.stdout)["motions"] == 2
     assert json.loads((tmp_path / "out" / "take.json").read_text())["motions"] == 2
-    assert len(list((tmp_path / "out").iterdir())) == len(FORMS) + 1
+    assert len(list((tmp_path / "out").iterdir())) == len(OUTPUT_FORMATS) + 1

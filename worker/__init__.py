@@ -1,10 +1,13 @@
-"""RQ workers: the only processes that load the numerics; and what the service asks of them and reads of them.
+"""RQ workers: the only processes that load the method; and what the service asks of them and reads of them.
 
-jobs, queues, errands    what is asked: segmentations and their states, RQ's queues, the small jobs beside them
-records, schema, keys    what Redis holds of ours: reading and changing it, its form, its names
-blobs                    what lies in files
-tasks, attempt, place    what a job does, how it tells of that, and what it works with
-pool, horses, horse      who does it: one process of a machine, its workers, the fork of a worker
-watch, roster, lifeline  how nothing is stuck: what is lost, who is alive, and nobody outlives its parent
-retention, forgetting    what is kept too long, and how it goes; orphans and leftovers are what nobody points to
+tasks            what a job does
+result_files     files made of a result, and alternatives: other numbers of motions
+queue            segmentations as jobs, RQ's queues, attempts and their progress
+process          worker processes: the pool, the workers, their work-horses
+records          what Redis holds
+store            what lies in files
+retention        what is kept too long, and how it goes
+parent_watch     a process ends when its parent does
+embedded_redis   a Redis-compatible server where none is given
+settings, logs   what may be set, and log lines
 """

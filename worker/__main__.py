@@ -1,9 +1,9 @@
-"""`python -m worker`: take jobs from Redis until told to stop.
+"""`python -m caesura.worker`: take jobs from Redis until told to stop.
 
-python -m worker                                    one worker for everything, one for `cut` alone
-python -m worker --queues cut                       one worker, for `cut` alone
-python -m worker --queues analyse,cut --queues cut  one process for each
-python -m worker --check                            exit status 0 where a worker of this machine is alive
+python -m caesura.worker                                    one worker for everything, one for `cut` alone
+python -m caesura.worker --queues cut                       one worker, for `cut` alone
+python -m caesura.worker --queues analyse,cut --queues cut  one process for each
+python -m caesura.worker --check                            exit status 0 where a worker of this machine is alive
 """
 
 import argparse
@@ -15,32 +15,35 @@ from pathlib import Path
 
 from redis.exceptions import RedisError
 
-from worker import logs
-from worker.connection import connect
-from worker.errands import sweep_sometimes
-from worker.horses import CaesuraWorker
-from worker.jobs import Jobs
-from worker.layout import LayoutTooNew, check_layout
-from worker.leftovers import clear
-from worker.pool import Pool
-from worker.queues import QUEUES
-from worker.roster import alive_here
-from worker.settings import WorkerSettings
-from worker.watch import Watch
+from caesura.worker import logs
+from caesura.worker.private_folder import make_private
+from caesura.worker.process.rq_worker import CaesuraWorker
+from caesura.worker.process.worker_pool import WorkerPool
+from caesura.worker.process.worker_registry import has_live_worker_here
+from caesura.worker.queue.auxiliary_jobs import submit_sweep_if_due
+from caesura.worker.queue.jobs import Jobs
+from caesura.worker.queue.orphaned_jobs import OrphanedJobWatch
+from caesura.worker.queue.queues import QUEUES
+from caesura.worker.records.connection import await_writes, connect
+from caesura.worker.records.layout_version import LayoutTooNew, check_layout
+from caesura.worker.settings import WorkerSettings
+from caesura.worker.store.temporary_files import delete_abandoned_files
 
 DEFAULT_GROUPS = [["analyse", "cut"], ["cut"]]
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the workers, or check them."""
-    parser = argparse.ArgumentParser(prog="python -m worker", description="Take jobs from Redis until told to stop.")
+    parser = argparse.ArgumentParser(
+        prog="python -m caesura.worker", description="Take jobs from Redis until told to stop."
+    )
     parser.add_argument("--queues", action="append", type=_queues, metavar="NAME,…", help="one worker; may be repeated")
     parser.add_argument("--check", action="store_true", help="exit with 0 where a worker of this machine is alive")
     options = parser.parse_args(arguments)
     settings = WorkerSettings()
     if options.check:
         sys.exit(0 if _alive(settings) else 1)
-    logs.configure(settings.log_format)
+    logs.configure_logging(settings.log_format)
     try:
         run(settings, options.queues or DEFAULT_GROUPS)
     except LayoutTooNew as refused:
@@ -49,38 +52,42 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 def run(settings: WorkerSettings, groups: list[list[str]]) -> None:
     """Warm up on one thread, then fork the workers."""
-    check_layout(connect(settings.redis_location))
+    client = connect(settings.redis_location)
+    await_writes(client)
+    check_layout(client)
+    make_private(settings.data_dir)
     _choose_cache(settings)
     # Only now is it settled where compiled code is kept. The tasks are loaded for the forks to have them.
-    from worker import tasks  # noqa: F401, PLC0415
-    from worker.warming import warm  # noqa: PLC0415
+    from caesura.worker import tasks  # noqa: F401, PLC0415
+    from caesura.worker.process.warm_up import warm_up  # noqa: PLC0415
 
-    warm()
+    warm_up()
     gc.freeze()  # what is loaded now stays: collecting it would copy the pages that the forks share
     jobs = Jobs.open(settings)
-    watch = Watch(jobs)
+    watch = OrphanedJobWatch(jobs)
 
     def tend() -> None:
         watch.look()
-        sweep_sometimes(jobs)
-        clear(settings.scratch_dir)
+        submit_sweep_if_due(jobs)
+        delete_abandoned_files(settings.scratch_dir)
 
-    Pool(groups, lambda queues: _work(queues, settings), tend, settings.stop_seconds).run()
+    WorkerPool(groups, lambda queues: _work(queues, settings), tend, settings.stop_seconds).run()
 
 
 def _work(queues: list[str], settings: WorkerSettings) -> None:
-    """One worker, in its own process."""
-    from worker.tasks import prepare  # noqa: PLC0415  as in `run`
+    """One worker, in its own process. It leaves where Redis refuses a write; the one after it waits first."""
+    from caesura.worker.tasks import prepare  # noqa: PLC0415  as in `run`
 
     client = connect(settings.redis_location)
+    await_writes(client)
     worker = CaesuraWorker(queues, client, Jobs.open(settings), prepare)
-    worker.saddle()
+    worker.prefork()
     worker.work(logging_level="INFO")
 
 
 def _alive(settings: WorkerSettings) -> bool:
     try:
-        return alive_here(connect(settings.redis_location))
+        return has_live_worker_here(connect(settings.redis_location))
     except RedisError:
         return False
 

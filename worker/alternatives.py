@@ -15,26 +15,22 @@ from sys import byteorder
 from redis import WatchError
 from redis.client import Pipeline
 
-from core.document import Segment, SegmentationDocument
-from worker import keys
-from worker.records import Records
-from worker.schema import SegmentationRecord
-
-ENERGY = b'"energy":['
-"""Where the curve stands in a document. Nowhere else: inside of a text these quotes would be escaped."""
+from caesura.core.document import Segment, SegmentationDocument
+from caesura.worker.records import Records, redis_keys
+from caesura.worker.records.schema import SegmentationRecord
 
 
-def add_alternative(records: Records, identifier: str, document: SegmentationDocument) -> bool:
+def store_alternative(records: Records, identifier: str, document: SegmentationDocument) -> bool:
     """Keep one beside a result; False, and nothing kept, where the result is not there any more."""
     shown = document.model_copy(update={"id": None, "energy": ()}).model_dump_json()
     asked = str(document.parameters["motions"])
     with records.redis.pipeline() as pipe:
         while True:
-            pipe.watch(keys.segmentation_key(identifier))
-            if not pipe.exists(keys.segmentation_key(identifier)):
+            pipe.watch(redis_keys.segmentation_key(identifier))
+            if not pipe.exists(redis_keys.segmentation_key(identifier)):
                 return False
             pipe.multi()
-            pipe.hset(keys.alternatives_key(identifier), asked, zlib.compress(shown.encode()))
+            pipe.hset(redis_keys.alternatives_key(identifier), asked, zlib.compress(shown.encode()))
             try:
                 pipe.execute()
             except WatchError:
@@ -42,18 +38,19 @@ def add_alternative(records: Records, identifier: str, document: SegmentationDoc
             return True
 
 
-def recall(records: Records, wanted: SegmentationRecord, beside: str) -> SegmentationRecord | None:
+def restore_alternative(records: Records, wanted: SegmentationRecord, beside: str) -> SegmentationRecord | None:
     """Make the segmentation `wanted`, done, of what is stored beside the result `beside`; None where nothing is.
 
     None too where it was asked for before: then it is as it is.
     """
-    stored = records.redis.hget(keys.alternatives_key(beside), str(wanted.parameters["motions"]))
+    stored = records.redis.hget(redis_keys.alternatives_key(beside), str(wanted.parameters["motions"]))
     result = records.segmentations.one(beside)
     whole, energy, _ = records.segmentations.result(beside) if isinstance(stored, bytes) else (None, None, None)
     if not isinstance(stored, bytes) or result is None or whole is None or energy is None:
         return None
     alternative = SegmentationDocument.model_validate_json(zlib.decompress(stored))
-    document = _with_energy(alternative.model_copy(update={"id": wanted.id}), whole)
+    curve = SegmentationDocument.model_validate_json(whole).energy
+    document = alternative.model_copy(update={"id": wanted.id, "energy": curve}).model_dump_json()
 
     def change(kept: SegmentationRecord) -> SegmentationRecord | None:
         if kept is not wanted and (kept.live or kept.settled):
@@ -70,15 +67,15 @@ def recall(records: Records, wanted: SegmentationRecord, beside: str) -> Segment
         )
 
     def also(pipe: Pipeline, _: SegmentationRecord) -> None:
-        pipe.set(keys.segmentation_key(wanted.id, "document"), document)
-        pipe.set(keys.segmentation_key(wanted.id, "energy"), energy)
-        pipe.set(keys.segmentation_key(wanted.id, "labels"), labels_of(alternative.segments))
-        pipe.zadd(keys.USED_KEY, {wanted.animation: time.time()}, xx=True)
+        pipe.set(redis_keys.segmentation_key(wanted.id, "document"), document)
+        pipe.set(redis_keys.segmentation_key(wanted.id, "energy"), energy)
+        pipe.set(redis_keys.segmentation_key(wanted.id, "labels"), encode_labels(alternative.segments))
+        pipe.zadd(redis_keys.LAST_USED_KEY, {wanted.animation: time.time()}, xx=True)
 
     return records.segmentations.change(wanted.id, change, also, new=wanted)
 
 
-def labels_of(segments: tuple[Segment, ...]) -> bytes:
+def encode_labels(segments: tuple[Segment, ...]) -> bytes:
     """The motion of every frame: little-endian uint16."""
     labels = array("H")
     for segment in segments:
@@ -86,9 +83,3 @@ def labels_of(segments: tuple[Segment, ...]) -> bytes:
     if byteorder == "big":
         labels.byteswap()
     return labels.tobytes()
-
-
-def _with_energy(alternative: SegmentationDocument, whole: bytes) -> bytes:
-    """The alternative's document with the curve of another: its text is moved over, for reading it takes longer."""
-    before, after = alternative.model_dump_json().encode().split(ENERGY)
-    return before + ENERGY + whole.split(ENERGY)[1].partition(b"]")[0] + after

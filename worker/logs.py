@@ -14,6 +14,8 @@ from contextvars import ContextVar
 from datetime import UTC, datetime
 from typing import Literal
 
+from caesura.core.control_characters import escape_control_characters
+
 Form = Literal["text", "json"]
 
 TEXT = "%(asctime)s %(levelname)s %(name)s: %(message)s"
@@ -23,7 +25,7 @@ _GIVEN = re.compile(r"[A-Za-z0-9._:-]{1,64}")
 
 
 @contextmanager
-def about(**ids: str) -> Iterator[None]:
+def log_context(**ids: str) -> Iterator[None]:
     """What is logged in this block is about these: `request`, `segmentation`, …"""
     before = _ABOUT.set({**_ABOUT.get(), **{name: value for name, value in ids.items() if value}})
     try:
@@ -42,7 +44,7 @@ def safe_request_id(given: str) -> str:
     return given if _GIVEN.fullmatch(given) else secrets.token_hex(8)
 
 
-def configure(form: Form) -> None:
+def configure_logging(form: Form) -> None:
     """Everything to stderr, in this form."""
     handler = logging.StreamHandler()
     handler.setFormatter(JsonLines() if form == "json" else TextLines(TEXT))
@@ -50,13 +52,13 @@ def configure(form: Form) -> None:
 
 
 class TextLines(logging.Formatter):
-    """A line for people: `… message request=ID key=value`."""
+    """A line for people: `… message request=ID key=value`. What a client sent starts no line and ends no value."""
 
     def format(self, record: logging.LogRecord) -> str:
-        """The line; a traceback follows on lines of its own."""
-        said = [f" {name}={value}" for name, value in _values(record).items()]
-        head, line, rest = super().format(record).partition("\n")
-        return head + "".join(said) + line + rest
+        """The line; further lines of the message and a traceback follow, each indented."""
+        head, *rest = map(escape_control_characters, super().format(record).split("\n"))
+        values = [f" {name}={_quote(str(value))}" for name, value in _values(record).items()]
+        return "\n    ".join([head + "".join(values), *rest])
 
 
 class JsonLines(logging.Formatter):
@@ -74,6 +76,11 @@ class JsonLines(logging.Formatter):
         if record.exc_info:
             told["traceback"] = self.formatException(record.exc_info)
         return json.dumps(told, ensure_ascii=False)
+
+
+def _quote(value: str) -> str:
+    """The value as it is where it is one word, else as Python writes text."""
+    return value if value.isprintable() and not set(" =\"'") & set(value) else repr(value)
 
 
 def _values(record: logging.LogRecord) -> dict[str, object]:

@@ -8,7 +8,7 @@ from urllib.parse import quote
 from pydantic import AliasChoices, Field, FilePath
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
-from core.limits import Limits
+from caesura.core.limits import Limits
 
 
 def _data_home() -> Path:

@@ -1,87 +1,89 @@
 """What a worker does: read an upload, analyse it, cut it, and keep the result. Each function is one RQ job."""
 
+import time
 from contextlib import suppress
 
-from core.alternatives import alternatives
-from core.analysis import Analysis
-from core.document import SegmentationDocument
-from core.formats.playback.play import playback
-from core.formats.read import read_animation
-from core.parameters import Parameters
-from core.pipeline import analyse, cut
-from worker import exports, ids
-from worker.allowance import Allowance
-from worker.alternatives import add_alternative
-from worker.attempt import Attempt, Superseded, carry_out
-from worker.blobs import BlobMissing, Blobs
-from worker.cpu import available_threads
-from worker.errands import submit_alternatives
-from worker.mapping import mapped_parts, scratch_space
-from worker.place import place, stored_analysis
-from worker.retention import sweep
-from worker.schema import AnalysisRecord, AnimationRecord, ViewerRecord
-from worker.warming import rehearse
+from caesura.core.alternatives import cut_into_other_motion_counts
+from caesura.core.analysis import Analysis
+from caesura.core.document import SegmentationDocument
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import analyse, cut
+from caesura.formats.playback.playback_files import make_playback
+from caesura.formats.read import read_animation
+from caesura.worker import result_files
+from caesura.worker.alternatives import store_alternative
+from caesura.worker.process.job_quota import JobQuota
+from caesura.worker.process.thread_count import available_threads
+from caesura.worker.process.warm_up import rehearse_cuts
+from caesura.worker.process.worker_context import stored_analysis, worker_context
+from caesura.worker.queue.attempt import Attempt, Superseded, run_attempt
+from caesura.worker.queue.auxiliary_jobs import submit_alternatives
+from caesura.worker.records import content_ids
+from caesura.worker.records.schema import AnalysisRecord, AnimationRecord, ViewerRecord
+from caesura.worker.retention.retention import sweep_by_clock
+from caesura.worker.store.blobs import BlobMissing, Blobs
+from caesura.worker.store.memory_maps import map_parts, scratch_space
 
 DAY = 24 * 3600.0
 
 
 def prepare() -> None:
     """Connect and rehearse, before there is a job."""
-    place().jobs.redis.ping()
-    rehearse()
+    worker_context().jobs.redis.ping()
+    rehearse_cuts()
 
 
 def run_analyse(identifier: str, token: str) -> None:
     """The job of the queue `analyse`: from the vertices to the result."""
-    carry_out(place().jobs, identifier, token, _analyse)
+    run_attempt(worker_context().jobs, identifier, token, _analyse)
 
 
 def run_cut(identifier: str, token: str) -> None:
     """The job of the queue `cut`: another cut of a stored analysis. It never sees a vertex."""
-    carry_out(place().jobs, identifier, token, _cut)
+    run_attempt(worker_context().jobs, identifier, token, _cut)
 
 
 def run_alternatives(identifier: str) -> None:
     """The result for every other number of motions that it scored: nobody waits for them, and none is a must."""
-    settings, records = place().settings, place().jobs.records
+    settings, records = worker_context().settings, worker_context().jobs.records
     record, (document, _, _) = records.segmentations.one(identifier), records.segmentations.result(identifier)
     if record is None or record.analysis is None or document is None:
         return  # deleted meanwhile
-    Allowance(settings.job_memory_bytes, settings.job_seconds)
+    JobQuota(settings.job_memory_bytes, settings.job_seconds)
     found = SegmentationDocument.model_validate_json(document)
     scored = [score.motions for score in found.scores]
     with suppress(BlobMissing):
         analysis = stored_analysis(record.analysis.key)
-        for made in alternatives(analysis, record.chosen(), scored, found.motions):
-            if not add_alternative(records, identifier, made.document()):
+        for made in cut_into_other_motion_counts(analysis, record.chosen(), scored, found.motions):
+            if not store_alternative(records, identifier, made.document()):
                 return
 
 
 def run_export(identifier: str, form: str) -> None:
     """A file made of a result, for the web process has no arrays."""
-    here = place()
-    exports.run(here.jobs.records, here.blobs, here.settings, identifier, form)
+    here = worker_context()
+    result_files.make_result_file(here.jobs.records, here.blobs, here.settings, identifier, form)
 
 
 def run_sweep() -> None:
     """Forget what is kept too long."""
-    settings, jobs, blobs = place().settings, place().jobs, place().blobs
-    sweep(jobs, blobs, settings.keep_upload_days * DAY, settings.keep_result_days * DAY)
+    settings, jobs, blobs = worker_context().settings, worker_context().jobs, worker_context().blobs
+    sweep_by_clock(jobs, blobs, settings.keep_upload_days * DAY, settings.keep_result_days * DAY, time.time())
 
 
 def _analyse(attempt: Attempt) -> None:
     record, parameters = attempt.record, attempt.record.chosen()
-    settings, blobs = place().settings, place().blobs
-    digest = ids.heavy_digest(parameters.heavy(), record.algorithm)
+    settings, blobs = worker_context().settings, worker_context().blobs
+    digest = content_ids.heavy_digest(parameters.heavy(), record.algorithm)
     threads = settings.threads or available_threads()
     uploaded = _animation(attempt)
-    allowance = Allowance(settings.job_memory_bytes, settings.job_seconds * threads)
+    allowance = JobQuota(settings.job_memory_bytes, settings.job_seconds * threads)
     attempt.progress("read", 0.0)
-    with mapped_parts(blobs, uploaded.parts, allowance.grant) as parts:
-        scratch = scratch_space(settings.scratch_dir, allowance.grant)
+    with map_parts(blobs, uploaded.parts, allowance.extend) as parts:
+        scratch = scratch_space(settings.scratch_dir, allowance.extend)
         animation = read_animation(parts, parameters, settings.limits, scratch)
         analysis = analyse(animation, parameters, threads=threads, progress=attempt.progress)
-        shown = playback(animation, analysis, threads=threads, progress=attempt.progress)
+        shown = make_playback(animation, analysis, threads=threads, progress=attempt.progress)
         viewer = ViewerRecord(
             document=shown.document,
             model=blobs.put(shown.model, "viewer"),
@@ -104,9 +106,9 @@ def _keep(attempt: Attempt, blobs: Blobs, digest: str, made: AnalysisRecord) -> 
 
 
 def _cut(attempt: Attempt) -> None:
-    record, parameters, settings = attempt.record, attempt.record.chosen(), place().settings
-    digest = ids.heavy_digest(parameters.heavy(), record.algorithm)
-    Allowance(settings.job_memory_bytes, settings.job_seconds)
+    record, parameters, settings = attempt.record, attempt.record.chosen(), worker_context().settings
+    digest = content_ids.heavy_digest(parameters.heavy(), record.algorithm)
+    JobQuota(settings.job_memory_bytes, settings.job_seconds)
     stored = attempt.records.analyses.one(record.animation, digest)
     if stored is not None:
         with suppress(BlobMissing):

@@ -6,7 +6,7 @@ import socket
 import uvicorn
 from fastapi import FastAPI
 
-from service.server import configuration
+from caesura.service.http.server import configuration
 
 app = FastAPI()
 

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from itertools import count
 
 from benchmarks.load.calls import Calls
-from samples.session import long_session
+from caesura.samples.session import long_session
 
 FRAMES = 9_000
 WAITING = 2

@@ -17,8 +17,8 @@ from benchmarks.load.calls import Calls
 from benchmarks.load.measure import Measure, percentile
 from benchmarks.load.takes import different
 from benchmarks.processes import Running, descendants, role
-from samples.session import long_session
-from samples.take import RATE
+from caesura.samples.session import long_session
+from caesura.samples.take import RATE
 
 SMALL, LARGE = 300, 9_000
 """Frames: ten seconds, five minutes."""

@@ -6,14 +6,14 @@ from itertools import chain
 from benchmarks.load.calls import Calls
 from benchmarks.load.measure import Measure, percentile
 from benchmarks.load.takes import different
-from core.formats.playback.play import playback
-from core.formats.read import read_animation
-from core.limits import Limits
-from core.parameters import Parameters
-from core.pipeline import analyse, cut
-from samples.figures import figure
-from worker.cpu import available_threads
-from worker.warming import warm
+from caesura.core.limits import Limits
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import analyse, cut
+from caesura.formats.playback.playback_files import make_playback
+from caesura.formats.read import read_animation
+from caesura.samples.figures import figure
+from caesura.worker.process.thread_count import available_threads
+from caesura.worker.process.warm_up import warm_up
 
 TURNS = 15
 MOTIONS = 4
@@ -21,7 +21,7 @@ MOTIONS = 4
 
 def overhead(url: str, turns: int = TURNS) -> list[Measure]:
     """In turns: the pipeline in this process, and the same take through the service; medians of the differences."""
-    warm()
+    warm_up()
     takes = different(figure("smooth").glb)
     posted, bare = [], []
     with Calls(url) as calls:
@@ -44,7 +44,7 @@ def pipeline(glb: bytes) -> str:
     parameters = Parameters(motions=MOTIONS)
     animation = read_animation({"": memoryview(glb)}, parameters, Limits(), lambda size: memoryview(bytearray(size)))
     analysis = analyse(animation, parameters, threads=threads)
-    shown = playback(animation, analysis, threads=threads)
+    shown = make_playback(animation, analysis, threads=threads)
     for _ in chain(shown.model, shown.strain or ()):  # made as it is read
         pass
     return cut(analysis, parameters).to_json()

@@ -7,8 +7,8 @@ from redis import Redis
 from benchmarks.load.calls import Calls
 from benchmarks.load.measure import Measure, percentile
 from benchmarks.load.takes import different
-from samples.figures import figure
-from worker import keys
+from caesura.samples.figures import figure
+from caesura.worker.records import redis_keys
 
 TAKES = 5
 UNSCORED = 8
@@ -22,7 +22,7 @@ def analysed(calls: Calls, redis: Redis, takes: int = TAKES) -> list[tuple[str, 
     for _ in range(takes):
         status = calls.post_file(next(files))
         scores = calls.http.get(f"/v1/segmentations/{status['id']}/result.json").json()["scores"]
-        while redis.hlen(keys.alternatives_key(status["id"])) < len(scores):
+        while redis.hlen(redis_keys.alternatives_key(status["id"])) < len(scores):
             time.sleep(LOOK_SECONDS)
         found.append((status["animation"], [score["motions"] for score in scores]))
     return found
@@ -30,14 +30,14 @@ def analysed(calls: Calls, redis: Redis, takes: int = TAKES) -> list[tuple[str, 
 
 def stored_bytes(redis: Redis) -> tuple[int, int]:
     """Bytes of Redis's memory that one demo take's result takes, and that its alternatives take beside it."""
-    key = next(redis.scan_iter(match=keys.alternatives_key("*"), count=1000)).decode()
+    key = next(redis.scan_iter(match=redis_keys.alternatives_key("*"), count=1000)).decode()
     identifier = key.rpartition(":")[2]
-    parts = [keys.segmentation_key(identifier), *_parts(identifier)]
+    parts = [redis_keys.segmentation_key(identifier), *_parts(identifier)]
     return sum(_memory(redis, part) for part in parts), _memory(redis, key)
 
 
 def _parts(identifier: str) -> list[str]:
-    return [keys.segmentation_key(identifier, part) for part in ("document", "energy", "labels")]
+    return [redis_keys.segmentation_key(identifier, part) for part in ("document", "energy", "labels")]
 
 
 def _memory(redis: Redis, key: str) -> int:

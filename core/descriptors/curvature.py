@@ -16,10 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32
 
-from core.descriptors.strain import ROUNDING
-from core.mesh.angles import AngleDefect, Folding, Rows, Totals
-from core.mesh.edges import hinges
-from core.mesh.mesh import Mesh
+from caesura.core.descriptors.strain import ROUNDING
+from caesura.core.mesh.angles import AngleDefect, FoldAngles, Rows, Totals
+from caesura.core.mesh.edges import find_hinges
+from caesura.core.mesh.mesh import Mesh
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class Curvature:
     @classmethod
     def of(cls, mesh: Mesh, kind: str = "gaussian") -> "Curvature":
         """`kind` is gaussian or mean."""
-        flat, fold = AngleDefect.of(mesh), Folding(hinges(mesh.corners))
+        flat, fold = AngleDefect.of(mesh), FoldAngles(find_hinges(mesh.corners))
         total = flat.total if kind == "gaussian" else fold.total
         rounding = flat.rounding(mesh) if kind == "gaussian" else fold.rounding(mesh)
         around = _sum(mesh, slice(None), mesh.cells())

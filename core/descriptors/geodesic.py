@@ -16,10 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32, Float64, Int, Int32
 
-from core.descriptors.strain import ROUNDING
-from core.mesh import kernels
-from core.mesh.mesh import Mesh
-from core.mesh.net import Net
+from caesura.core.descriptors.strain import ROUNDING
+from caesura.core.kernels import mesh_edges
+from caesura.core.mesh.edge_graph import EdgeGraph
+from caesura.core.mesh.mesh import Mesh
 
 SOURCES = 16
 """Sources on every piece. The change of their average follows that of all points: a test says how closely."""
@@ -36,14 +36,14 @@ class Geodesic:
     """
 
     mesh: Mesh
-    net: Net
-    sources: tuple["Source", ...]
+    net: EdgeGraph
+    sources: tuple["DistanceSource", ...]
     at_rest: Float32[np.ndarray, "columns 1"]
 
     @classmethod
     def of(cls, mesh: Mesh) -> "Geodesic":
         """Sources are chosen at rest: on each piece, every one as far from those before it as can be."""
-        net = Net.of(mesh)
+        net = EdgeGraph.of(mesh)
         sources = tuple(_sources(net, mesh))
         average = _average(net, sources, mesh.rows_at_rest())
         return cls(mesh, net, sources, mesh.on_triangles(slice(None), average))
@@ -72,7 +72,7 @@ class Geodesic:
 
 
 @dataclass(frozen=True)
-class Source:
+class DistanceSource:
     """A point on every piece; how much it counts at each point of its piece; and all points by distance from it."""
 
     seeds: Int[np.ndarray, "pieces"]
@@ -80,15 +80,15 @@ class Source:
     order: Int32[np.ndarray, "P"]
 
 
-def _sources(net: Net, mesh: Mesh) -> Iterator[Source]:
+def _sources(net: EdgeGraph, mesh: Mesh) -> Iterator[DistanceSource]:
     """`SOURCES` points on each piece, by farthest-point sampling along the surface; fewer where it has fewer."""
     cells, count = mesh.cells(), int(net.piece.max()) + 1
     whole = np.bincount(net.piece, weights=cells, minlength=count)
     nearest = np.full(len(cells), np.inf)
     owner = np.zeros(len(cells), np.int64)
-    far, found = _from_middle(net, mesh, cells / whole[net.piece]), []
+    far, found = _distances_from_middle(net, mesh, cells / whole[net.piece]), []
     for number in range(SOURCES):
-        seeds = _farthest(net.piece, far)
+        seeds = _farthest_point(net.piece, far)
         distance = net.from_nearest(seeds)
         owner[distance < nearest] = number
         nearest = far = np.minimum(nearest, distance)
@@ -96,31 +96,31 @@ def _sources(net: Net, mesh: Mesh) -> Iterator[Source]:
     for number, (seeds, order) in enumerate(found):
         share = np.bincount(net.piece, weights=np.where(owner == number, cells, 0), minlength=count) / whole
         if share.any():
-            yield Source(seeds, share[net.piece].astype(np.float32), order)
+            yield DistanceSource(seeds, share[net.piece].astype(np.float32), order)
 
 
-def _from_middle(net: Net, mesh: Mesh, weight: Float64[np.ndarray, "P"]) -> Float64[np.ndarray, "P"]:
+def _distances_from_middle(net: EdgeGraph, mesh: Mesh, weight: Float64[np.ndarray, "P"]) -> Float64[np.ndarray, "P"]:
     """How far every point is from the middle of its piece, through space."""
     place = mesh.rest.astype(np.float64)
     middle = np.stack([np.bincount(net.piece, weights=weight * axis) for axis in place.T], axis=1)
     return np.asarray(np.linalg.norm(place - middle[net.piece], axis=1))
 
 
-def _farthest(piece: Int[np.ndarray, "P"], far: Float64[np.ndarray, "P"]) -> Int[np.ndarray, "pieces"]:
+def _farthest_point(piece: Int[np.ndarray, "P"], far: Float64[np.ndarray, "P"]) -> Int[np.ndarray, "pieces"]:
     """The point of each piece where `far` is largest; the lowest of equal ones."""
     order = np.lexsort((-far, piece))
     return order[np.searchsorted(piece[order], np.arange(int(piece.max()) + 1))]
 
 
 def _average(
-    net: Net, sources: tuple[Source, ...], rows: Float32[np.ndarray, "P 3 frames"]
+    net: EdgeGraph, sources: tuple[DistanceSource, ...], rows: Float32[np.ndarray, "P 3 frames"]
 ) -> Float32[np.ndarray, "P frames"]:
     lengths = np.empty((len(net.edges), rows.shape[2]), np.float32)
-    kernels.edge_lengths(rows, net.edges, lengths)
+    mesh_edges.edge_lengths(rows, net.edges, lengths)
     average, distance = np.zeros((2, len(rows), rows.shape[2]), np.float32)
     for source in sources:
         distance.fill(np.inf)
         distance[source.seeds] = 0
-        kernels.shortest_paths(source.order, net.start, net.beside, net.edge, lengths, distance)
+        mesh_edges.shortest_paths(source.order, net.start, net.beside, net.edge, lengths, distance)
         average += source.share[:, None] * distance
     return average

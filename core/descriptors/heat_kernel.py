@@ -19,11 +19,11 @@ import numpy as np
 from jaxtyping import Float32, Float64, Int
 from scipy.linalg import eigh
 
-from core.descriptors.strain import ROUNDING
-from core.errors import LimitExceeded
-from core.mesh.edges import edges_of, pieces
-from core.mesh.laplacian import Laplacian
-from core.mesh.mesh import Mesh
+from caesura.core.descriptors.strain import ROUNDING
+from caesura.core.errors import LimitExceeded
+from caesura.core.mesh.edges import label_connected_pieces, list_edges
+from caesura.core.mesh.laplacian import Laplacian
+from caesura.core.mesh.mesh import Mesh
 
 MODES = 32
 """Eigenfunctions of a piece. exp(−λ t) of the last one is 1e-4 at the shortest time: the rest would add nothing."""
@@ -144,9 +144,9 @@ class Piece:
 
 
 def _pieces(mesh: Mesh) -> Iterator[Piece]:
-    edges, _ = edges_of(mesh.corners)
+    edges, _ = list_edges(mesh.corners)
     points = len(mesh.members)
-    piece = pieces(edges, points)
+    piece = label_connected_pieces(edges, points)
     count = int(piece.max()) + 1
     place = mesh.rest.astype(np.float64)
     local, of_triangle = np.empty(points, np.int64), piece[mesh.corners[:, 0]]

@@ -10,9 +10,8 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float, Int, Int32
 
-from core.descriptors import kernels
-from core.descriptors.farthest_points import spread
-from core.descriptors.gathering.kernels import gather
+from caesura.core.kernels import descriptors
+from caesura.core.mesh.farthest_points import sample_farthest_points
 
 POINTS = 150
 NEAREST = 10
@@ -37,7 +36,7 @@ class PairDistances:
         """
         used = np.zeros(len(rest), bool)
         used[triangles.ravel() if len(triangles) else slice(None)] = True
-        points = spread(rest, POINTS, used).chosen
+        points = sample_farthest_points(rest, POINTS, used).chosen
         place = rest[points].astype(np.float64)
         distance = np.linalg.norm(place[:, None] - place[None, :], axis=2)
         a, b = _pairs(distance)
@@ -47,9 +46,9 @@ class PairDistances:
         """(distance − distance at rest) / size, float32, no unit: zero for a body that only moves rigidly."""
         members, first, second = self._ends
         rows = np.empty((len(members), 3, len(block)), np.float32)
-        gather(block, members, rows)
+        descriptors.gather(block, members, rows)
         changes = np.empty((len(first), len(block)), np.float32)
-        kernels.pair_changes(rows, first, second, self.at_rest, np.float32(1 / (self.size or 1.0)), changes)
+        descriptors.pair_changes(rows, first, second, self.at_rest, np.float32(1 / (self.size or 1.0)), changes)
         return changes.T
 
     @cached_property

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32, Int
 
-from core.descriptors.pair_distances import PairDistances
-from core.descriptors.strain import ROUNDING
+from caesura.core.descriptors.pair_distances import PairDistances
+from caesura.core.descriptors.strain import ROUNDING
 
 LIMB = (0.06, 0.3)
 """Shares of the body's size that the ends of a limb's joint are apart: not as near as fingers, nor across the body."""

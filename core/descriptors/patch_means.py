@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32, Float64, Int, Int32
 
-from core.descriptors import kernels
+from caesura.core.kernels import descriptors
 
 
 @dataclass(frozen=True)
@@ -33,5 +33,6 @@ class PatchMeans:
         tile: Float32[np.ndarray, "n frames"],
         means: Float32[np.ndarray, "patches frames"],
     ) -> None:
-        """Add the columns of a tile to the means."""
-        kernels.add_weighted(tile, self.weight[columns], self.patch[columns], means, 0, tile.shape[1])
+        """Add the columns of a tile to the means; nothing where there are no patches."""
+        if self.patches:
+            descriptors.add_weighted(tile, self.weight[columns], self.patch[columns], means)

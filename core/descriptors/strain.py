@@ -10,31 +10,19 @@ This form keeps its digits in float32; (tr / 2)² − det does not.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
-from jaxtyping import Float, Float32, Float64, Int, UInt16
+from jaxtyping import Float, Float32, Float64, Int
 
-from core.buffers import Buffers
-from core.descriptors import kernels
-from core.descriptors.gathering.kernels import gather
-from core.descriptors.kernels import WIDTH
-from core.descriptors.patch_means import PatchMeans
-from core.descriptors.reading.kernels import UNREADABLE, read_block
+from caesura.core.kernels import descriptors
+from caesura.core.kernels.descriptors import WIDTH
 
-MEASURES = {"log": kernels.LOG, "biot": kernels.BIOT, "max": kernels.MAX}
+MEASURES = {"log": descriptors.LOG, "biot": descriptors.BIOT, "max": descriptors.MAX}
 """`log`: sqrt(ln²σ1 + ln²σ2) (Hencky); `biot`: sqrt((σ1−1)² + (σ2−1)²); `max`: max(|σ1−1|, |σ2−1|). σ = sqrt(λ)."""
 
 TILE = 1024
 ROUNDING = 2.0**-20
 """Relative error of the edges of a triangle whose corners were rounded to float32, with room for how they were made."""
-
-
-UNREADABLE_SAYS = "a coordinate is no number, or too large for one"
-
-
-class UnreadableError(ValueError):
-    """A block of vertices has a coordinate that is not a number, or beyond `kernels.REACH`."""
 
 
 @dataclass(frozen=True)
@@ -49,16 +37,12 @@ class Tile:
     shapes: Float32[np.ndarray, "n 3"]
 
 
-Packed = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]
-
-
 @dataclass(frozen=True)
 class TriangleStrain:
     """Strain of the triangles of a mesh that have area at rest, in the order `triangles`, of which there are `columns`.
 
     `areas` (columns,) are the areas at rest; `thinness` (columns,) is 1 / c, so that corners rounded by δ are
-    strained by about δ · thinness; `left_out` counts the triangles without area at rest; it `covers` the mesh where
-    every vertex is a corner of one that has.
+    strained by about δ · thinness; `left_out` counts the triangles without area at rest.
     """
 
     columns: int
@@ -69,7 +53,6 @@ class TriangleStrain:
     measure: int
     scale_invariant: bool
     parts: tuple[Tile, ...]
-    covers: bool
 
     @classmethod
     def of(
@@ -96,74 +79,29 @@ class TriangleStrain:
         shapes = np.stack([1 / a, 1 / c, along / a / a / c], axis=1).astype(np.float32)
         parts = tuple(_tile(corners[i : i + TILE], shapes[i : i + TILE]) for i in range(0, len(corners), TILE))
         left_out = len(triangles) - len(corners)
-        areas, covers = doubled / 2, len(np.unique(corners)) == len(rest)
-        return cls(len(corners), left_out, order[kept], areas, 1 / c, MEASURES[measure], scale_invariant, parts, covers)
+        return cls(len(corners), left_out, order[kept], doubled / 2, 1 / c, MEASURES[measure], scale_invariant, parts)
 
     def tiles(
         self, block: Float32[np.ndarray, "frames V 3"]
     ) -> Iterator[tuple[slice, Float32[np.ndarray, "n frames"]]]:
         """Columns, and their strain in every frame of the block; no unit, from 0. Each array lives until the next.
 
-        A stretch below a thousandth counts as a thousandth. Raises `UnreadableError` where a corner is not a number
-        or beyond `kernels.REACH`, for so much is known once the vertices are at hand.
+        A stretch below a thousandth counts as a thousandth.
         """
-        frames = len(block)
         scale = _to_width(self._scale(block))
-        rows = self._buffers.empty((self._most_members, 3, WIDTH), np.float32)
-        tile = self._buffers.empty((TILE, WIDTH), np.float32)
-        scratch, tops = self._buffers.empty((3 * WIDTH,), np.float32), np.empty(TILE, np.int32)
+        rows = np.empty((max((len(part.members) for part in self.parts), default=0), 3, WIDTH), np.float32)
+        tile = np.empty((TILE, WIDTH), np.float32)
         for number, part in enumerate(self.parts):
-            out = tile[: len(part.corners)]
-            pieces = []
-            for start in range(0, frames, WIDTH):
-                width = min(frames - start, WIDTH)
-                own = rows[: len(part.members)]
-                gather(block[start : start + width], part.members, own)
+            own, out, pieces = rows[: len(part.members)], tile[: len(part.corners)], []
+            for start in range(0, len(block), WIDTH):
+                width = min(len(block) - start, WIDTH)
+                descriptors.gather(block[start : start + width], part.members, own)
                 own[:, :, width:] = own[:, :, width - 1 : width]  # frames that are not there repeat the last
-                if not _readable(own):
-                    raise UnreadableError(UNREADABLE_SAYS)
                 lines, factors = own.reshape(-1, 3 * WIDTH), scale[start : start + WIDTH]
-                kernels.strain_tile(lines, part.corners, part.shapes, factors, self.measure, scratch, out, tops)
-                if frames != WIDTH:
+                descriptors.strain_tile(lines, part.corners, part.shapes, factors, self.measure, out)
+                if len(block) != WIDTH:
                     pieces.append(out[:, :width].copy())
             yield slice(number * TILE, number * TILE + len(out)), np.concatenate(pieces, axis=1) if pieces else out
-
-    def read(
-        self,
-        block: Float32[np.ndarray, "frames V 3"],
-        noise: Float32[np.ndarray, "columns"],
-        coding: tuple[np.int32, np.int32],
-        means: tuple[PatchMeans, Float32[np.ndarray, "patches frames"]],
-        codes: UInt16[np.ndarray, "kept row"],
-        histogram: Int[np.ndarray, "codes"],
-    ) -> tuple[float, int]:
-        """All `tiles` in one call: adds to means and counts, and writes codes where there are rows.
-
-        `coding` is the lowest code's leading bits and the code from which on codes are counted. Returns the largest
-        strain and how many are above noise. Raises `UnreadableError`.
-        """
-        packed, (patches, sums) = self._packed, means
-        rows = self._buffers.empty((self._most_members, 3, WIDTH), np.float32)
-        scratch, tile = self._buffers.empty((3 * WIDTH,), np.float32), self._buffers.empty((TILE, WIDTH), np.float32)
-        largest, above = read_block(
-            block,
-            *packed,
-            _to_width(self._scale(block)),
-            self.measure,
-            noise.view(np.int32),
-            *coding,
-            patches.patch,
-            patches.weight,
-            rows,
-            scratch,
-            tile,
-            codes,
-            histogram,
-            sums,
-        )
-        if above == UNREADABLE:
-            raise UnreadableError(UNREADABLE_SAYS)
-        return float(np.int32(largest).view(np.float32)), int(above)
 
     def thinned(self, most: int) -> "TriangleStrain":
         """About so many of the triangles, evenly spread and packed anew: enough for a look.
@@ -182,30 +120,15 @@ class TriangleStrain:
         """The strain that rounding alone gives each triangle where coordinates go up to `reach`."""
         return (ROUNDING * reach * self.thinness).astype(np.float32)
 
-    @cached_property
-    def _packed(self) -> Packed:
-        """The parts, end to end: members and where those of each part begin, corners and where, shapes."""
-        members, corners = [part.members for part in self.parts], [part.corners for part in self.parts]
-        ends = [np.cumsum([0, *map(len, pieces)]) for pieces in (members, corners)]
-        shapes = np.concatenate([part.shapes for part in self.parts])
-        return np.concatenate(members), ends[0], np.concatenate(corners), ends[1], shapes
-
-    @cached_property
-    def _buffers(self) -> Buffers:
-        return Buffers()
-
-    @property
-    def _most_members(self) -> int:
-        return max((len(part.members) for part in self.parts), default=0)
-
     def _scale(self, block: Float32[np.ndarray, "frames V 3"]) -> Float32[np.ndarray, "frames"]:
         """What the squared stretches are multiplied by: rest area over the frame's, or 1."""
         if not self.scale_invariant:
             return np.ones(len(block), np.float32)
-        rows, twice = np.empty((self._most_members, 3, len(block)), np.float32), np.zeros(len(block), np.float64)
+        twice = np.zeros(len(block), np.float64)
         for part in self.parts:
-            gather(block, part.members, rows)
-            kernels.add_areas(rows, part.corners, twice)
+            rows = np.empty((len(part.members), 3, len(block)), np.float32)
+            descriptors.gather(block, part.members, rows)
+            descriptors.add_areas(rows, part.corners, twice)
         smallest = np.finfo(np.float32).tiny * self.areas.sum()
         return np.asarray(np.minimum(2 * self.areas.sum() / np.maximum(twice, smallest), 1e12), np.float32)
 
@@ -214,12 +137,6 @@ def _to_width(values: Float32[np.ndarray, "frames"]) -> Float32[np.ndarray, "who
     """The values with the last one repeated up to a multiple of `WIDTH`."""
     missing = -len(values) % WIDTH
     return np.pad(values, (0, missing), mode="edge") if missing else values
-
-
-def _readable(rows: Float32[np.ndarray, "v 3 width"]) -> bool:
-    """Whether every coordinate is a number within reach; NaN is not."""
-    largest = kernels.largest_bits(rows.reshape(-1).view(np.int32))
-    return bool(np.int32(largest).view(np.float32) <= kernels.REACH)
 
 
 def _longest_edge_first(rest: Float[np.ndarray, "V 3"], triangles: Int[np.ndarray, "T 3"]) -> Int[np.ndarray, "T 3"]:

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32, Float64, Int
 
-from core.descriptors import kernels
-from core.descriptors.strain import TILE
-from core.mesh.edges import edges_of
-from core.mesh.mesh import Mesh
+from caesura.core.descriptors.strain import TILE
+from caesura.core.kernels import descriptors
+from caesura.core.mesh.edges import list_edges
+from caesura.core.mesh.mesh import Mesh
 
 Rows = Float32[np.ndarray, "P 3 frames"]
 Totals = Float32[np.ndarray, "P frames"]
@@ -24,7 +24,7 @@ class AngleDefect:
     @classmethod
     def of(cls, mesh: Mesh) -> "AngleDefect":
         """A point is on a border where one of its edges has a single triangle."""
-        edges, which = edges_of(mesh.corners)
+        edges, which = list_edges(mesh.corners)
         border = edges[np.bincount(which.ravel(), minlength=len(edges)) == 1]
         full = np.full(len(mesh.members), 2 * np.pi, np.float32)
         full[border.ravel()] = np.pi
@@ -54,7 +54,7 @@ class AngleDefect:
 
 
 @dataclass(frozen=True)
-class Folding:
+class FoldAngles:
     """How far the two triangles at each hinge are folded against each other."""
 
     hinges: Int[np.ndarray, "hinges 4"]
@@ -87,7 +87,7 @@ class Folding:
 
 def _add(values: Float32[np.ndarray, "n frames"], points: Int[np.ndarray, "n"], totals: Totals) -> None:
     ones = np.ones(len(values), np.float32)
-    kernels.add_weighted(values, ones, points.astype(np.int32), totals, 0, values.shape[1])
+    descriptors.add_weighted(values, ones, points.astype(np.int32), totals)
 
 
 def _dot(u: Float32[np.ndarray, "n 3 frames"], v: Float32[np.ndarray, "n 3 frames"]) -> np.ndarray:

@@ -8,7 +8,7 @@ from scipy.linalg import eigh
 from scipy.sparse import csr_array, diags_array
 from scipy.sparse.linalg import eigsh
 
-from core.mesh.edges import edges_of
+from caesura.core.mesh.edges import list_edges
 
 DENSE = 400
 """Points below which all eigenfunctions at once are quicker than the first few."""
@@ -32,7 +32,7 @@ class Laplacian:
     @classmethod
     def of(cls, corners: Int[np.ndarray, "t 3"], points: int) -> "Laplacian":
         """The Laplacian of a mesh whose shape is not yet known."""
-        edges, which = edges_of(corners)
+        edges, which = list_edges(corners)
         return cls(corners, edges, _sums(which, len(edges), 1 / 2), _sums(corners, points, 1 / 3))
 
     def at(

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Float32, Float64, Int, Int32
 
-from core.descriptors import kernels
-from core.descriptors.gathering.kernels import gather
-from core.descriptors.strain import TILE
+from caesura.core.descriptors.strain import TILE
+from caesura.core.kernels import descriptors
 
 
 @dataclass(frozen=True)
@@ -44,10 +43,10 @@ class Mesh:
     def rows(self, block: Float32[np.ndarray, "frames V 3"]) -> Float32[np.ndarray, "P 3 frames"]:
         """Where the points are, the frames innermost."""
         rows = np.empty((len(self.members), 3, len(block)), np.float32)
-        gather(block, self.members, rows)
+        descriptors.gather(block, self.members, rows)
         if self.scale_invariant:
             twice = np.zeros(len(block), np.float64)
-            kernels.add_areas(rows, self.corners, twice)
+            descriptors.add_areas(rows, self.corners, twice)
             smallest = np.finfo(np.float32).tiny * self.areas.sum()
             scale = np.sqrt(np.minimum(2 * self.areas.sum() / np.maximum(twice, smallest), 1e12))
             rows *= scale.astype(np.float32)

@@ -1,22 +1,10 @@
-"""The methods, by name: each cuts a take by what was computed once from its vertices."""
+"""The methods: from an analysis to cuts and motions. One folder a family, one table of all.
 
-from collections.abc import Callable
-
-from core.analysis import Analysis
-from core.methods.aca import aca
-from core.methods.haca import haca
-from core.methods.joint_entropy import joint_entropy
-from core.methods.luo2014 import luo2014
-from core.methods.spectral import spectral
-from core.methods.switching import switching
-from core.parameters import Parameters
-from core.segmentation import Cut
-
-METHODS: dict[str, Callable[[Analysis, Parameters], Cut]] = {
-    "switching": switching,
-    "joint-entropy": joint_entropy,
-    "luo2014": luo2014,
-    "spectral": spectral,
-    "aca": aca,
-    "haca": haca,
-}
+table           the methods by name
+switching       the default: switching k-means on windowed features
+joint_entropy   the paper's: key-frames grouped by k-means
+alignment       compared with: aligned cluster analysis in one level and two, spectral clustering
+luo2014         compared with: segments of least dissimilarity
+comparison      what the compared methods share
+pose_features   all descriptors of a frame side by side
+"""

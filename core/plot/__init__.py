@@ -1,1 +1,7 @@
-"""A result as the paper's figures show one: the energy curve, its key-frames and cuts, the segments in colour."""
+"""The result as a picture: curve, key-frames and segments, as SVG or PNG.
+
+layout   where everything stands
+picture  what a picture is made of
+font     the font of the labels
+svg, png the picture as text and as pixels
+"""

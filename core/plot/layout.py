@@ -5,8 +5,8 @@ import unicodedata
 from collections.abc import Iterable, Iterator
 from itertools import groupby
 
-from core.document import Segment, SegmentationDocument, motion_name
-from core.plot.picture import TEXT, Box, Dot, Label, Line, Picture, Point
+from caesura.core.document import Segment, SegmentationDocument, motion_name
+from caesura.core.plot.picture import TEXT, Box, Dot, Label, Line, Picture, Point
 
 LEFT, TOP, WIDTH, CURVE, GAP, BAR, BELOW, RIGHT = 64, 14, 880, 200, 8, 28, 44, 16
 INK, FAINT, DISCARDED, KEY = "#222222", "#9a9a9a", "#dddddd", "#c1121f"
@@ -21,7 +21,7 @@ MINUTES_FROM = 180.0
 """Seconds of a take from which the axis counts minutes."""
 
 
-def picture_of(document: SegmentationDocument) -> Picture:
+def lay_out_picture(document: SegmentationDocument) -> Picture:
     """The curve over the segments, as the paper's figures 4 and 5."""
     found = f"{len(document.segments)} segments of {document.motions} motions, {len(document.key_frames)} key-frames"
     return Picture(
@@ -49,21 +49,21 @@ def _energy(document: SegmentationDocument) -> Iterator[Box | Line | Dot | Label
     for segment in document.segments[1:]:
         x = _x(document, segment.start)
         yield Line(((x, TOP), (x, TOP + CURVE + GAP)), FAINT, dashed=True)
-    for run in _runs(document):
-        yield Line(tuple(place(*point) for point in _thinned(document, run)), INK, 1.5)
+    for run in _curve_runs(document):
+        yield Line(tuple(place(*point) for point in _thin_out(document, run)), INK, 1.5)
     for key in document.key_frames:
         yield Dot(place(key.frame, key.energy), 3.5, KEY)
     yield Line(((LEFT, TOP), (LEFT, TOP + CURVE), (LEFT + WIDTH, TOP + CURVE)), INK)
 
 
-def _runs(document: SegmentationDocument) -> Iterator[list[tuple[int, float]]]:
+def _curve_runs(document: SegmentationDocument) -> Iterator[list[tuple[int, float]]]:
     """Frames and energies where the curve does not break off."""
     for known, run in groupby(enumerate(document.energy), lambda point: point[1] is not None):
         if known:
             yield [(frame, energy) for frame, energy in run if energy is not None]
 
 
-def _thinned(document: SegmentationDocument, run: list[tuple[int, float]]) -> Iterator[tuple[int, float]]:
+def _thin_out(document: SegmentationDocument, run: list[tuple[int, float]]) -> Iterator[tuple[int, float]]:
     """Of all frames in one column of pixels the first, the lowest, the highest and the last: it looks the same."""
     for _, column in groupby(run, lambda point: int(_x(document, point[0]))):
         points = list(column)
@@ -77,11 +77,11 @@ def _segments(document: SegmentationDocument) -> Iterator[Box | Label]:
         left, right = _x(document, segment.start), _x(document, segment.end)
         fill = DISCARDED if segment.discard else COLOURS[segment.motion % len(COLOURS)]
         yield Box(left, y, right - left, BAR, fill)
-        if _wide(segment.name) <= right - left - 6:
-            yield _named(segment, (left + right) / 2, y + BAR / 2 + TEXT / 3, _ink_on(fill))
+        if _text_width(segment.name) <= right - left - 6:
+            yield _visible_name(segment, (left + right) / 2, y + BAR / 2 + TEXT / 3, _ink_on(fill))
 
 
-def _named(segment: Segment, x: float, y: float, ink: str) -> Label:
+def _visible_name(segment: Segment, x: float, y: float, ink: str) -> Label:
     return Label((x, y), segment.name, ink, spare=motion_name(segment.motion))
 
 
@@ -109,7 +109,7 @@ def _ticks(low: float, high: float, most: int) -> Iterable[float]:
     return [number * step for number in range(math.ceil(low / step), math.floor(high / step) + 1)]
 
 
-def _wide(text: str) -> float:
+def _text_width(text: str) -> float:
     """About so many pixels: a letter is six tenths of its height wide, an ideograph as wide as it is high."""
     return sum(TEXT * (1.0 if unicodedata.east_asian_width(letter) in "WF" else 0.6) for letter in text)
 

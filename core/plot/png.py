@@ -4,8 +4,8 @@ import io
 
 from PIL import Image, ImageDraw
 
-from core.plot.lettering import Lettering, Written
-from core.plot.picture import TEXT, Box, Dot, Label, Line, Picture, Point
+from caesura.core.plot.font import LabelFont, LabelText
+from caesura.core.plot.picture import TEXT, Box, Dot, Label, Line, Picture, Point
 
 SCALE = 2
 """Pixels of the PNG for each of the picture: it is to be printed."""
@@ -14,13 +14,13 @@ SMOOTH = 3
 """Drawn so many times as large, for Pillow's strokes have hard edges, and made smaller at the end."""
 
 DASH = 3.0
-LACKING = "Names whose letters this font lacks are changed; see the SVG."
+MISSING_LETTERS_DETAIL = "Names whose letters this font lacks are changed; see the SVG."
 """Written at the foot of a picture whose names are not what they were."""
 
 FAINT, EDGE = "#5c5c5c", 8
 
 
-def png(picture: Picture, font: bytes | None = None) -> bytes:
+def render_png(picture: Picture, font: bytes | None = None) -> bytes:
     """The picture, on white, twice as many pixels either way.
 
     Names that Pillow's own font cannot write are written in `font`, the content of a TrueType or OpenType file; the
@@ -31,12 +31,12 @@ def png(picture: Picture, font: bytes | None = None) -> bytes:
     pen = ImageDraw.Draw(canvas)
     for shape in picture.shapes:
         if not isinstance(shape, Label):
-            _draw(pen, shape, SCALE * SMOOTH)
+            _draw_shape(pen, shape, SCALE * SMOOTH)
     small = canvas.resize((picture.width * SCALE, picture.height * SCALE), Image.Resampling.BOX)
-    lettering = Lettering(TEXT * SCALE, font)
+    lettering = LabelFont(TEXT * SCALE, font)
     written = [(label, lettering.of(label)) for label in picture.shapes if isinstance(label, Label)]
     if not all(one.whole for _, one in written):
-        below = Label((picture.width - EDGE, picture.height - EDGE), LACKING, FAINT, "end")
+        below = Label((picture.width - EDGE, picture.height - EDGE), MISSING_LETTERS_DETAIL, FAINT, "end")
         written.append((below, lettering.of(below)))
     for label, one in written:
         _write(small, label, one)
@@ -45,7 +45,7 @@ def png(picture: Picture, font: bytes | None = None) -> bytes:
     return out.getvalue()
 
 
-def _draw(pen: ImageDraw.ImageDraw, shape: Box | Line | Dot, scale: int) -> None:
+def _draw_shape(pen: ImageDraw.ImageDraw, shape: Box | Line | Dot, scale: int) -> None:
     match shape:
         case Box(x, y, width, height, fill):
             corner = ((x + width) * scale - 1, (y + height) * scale - 1)
@@ -65,7 +65,7 @@ def _dashes(points: tuple[Point, ...]) -> list[tuple[Point, Point]]:
     return [((x, y), (x, min(y + DASH, bottom))) for y in starts]
 
 
-def _write(image: Image.Image, label: Label, written: Written) -> None:
+def _write(image: Image.Image, label: Label, written: LabelText) -> None:
     text, font, _ = written
     x, y = label.at[0] * SCALE, label.at[1] * SCALE
     if not label.upright:

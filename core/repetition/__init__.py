@@ -1,7 +1,7 @@
-"""Repeats: three jumps in a row are one motion and three repetitions.
+"""Repetitions: three jumps in a row are one motion and three repetitions.
 
-passage   what of a segment is compared with itself
-period    how long a repetition takes, by self-similarity
-beats     where each repetition ends, for no two take equally long
-repeats   the repetitions of every segment of a take
+segment_features  what of a segment is compared with itself
+period            how long a repetition takes, by self-similarity
+repetition_ends   where each repetition ends, for no two take equally long
+repetitions       the repetitions of every segment of a take
 """

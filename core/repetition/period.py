@@ -10,27 +10,27 @@ from jaxtyping import Float
 SHORTEST_SECONDS = 0.3
 LONGEST_SHARE = 0.65
 """Of the passage: twice is the least that is a repetition, and the two may take 3 : 2."""
-UNLIKE = 0.85
+LARGEST_DIFFERENCE = 0.85
 """A passage nowhere more like itself than this repeats nothing; 1 is as unlike as at all shorter times."""
-SLACK = 0.35
+PERIOD_SLACK = 0.35
 """The first dip within this of the deepest counts: two walks of two steps are alike too, but one step is the step."""
 
 
-def period(passage: Float[np.ndarray, "frames d"], frame_rate: float) -> int:
+def find_period(passage: Float[np.ndarray, "frames d"], frame_rate: float) -> int:
     """Frames of a repetition; 0 where nothing repeats. O(frames log frames)."""
     longest = int(len(passage) * LONGEST_SHARE)
     shortest = max(round(SHORTEST_SECONDS * frame_rate), 1)
     if passage.shape[1] == 0 or longest < shortest + 2:
         return 0
-    unlike = unlikeness(passage, longest)
+    unlike = difference_function(passage, longest)
     inner = np.arange(shortest, longest)
     dips = inner[(unlike[inner] < unlike[inner - 1]) & (unlike[inner] <= unlike[inner + 1])]
-    if len(dips) == 0 or (deepest := unlike[dips].min()) > UNLIKE:
+    if len(dips) == 0 or (deepest := unlike[dips].min()) > LARGEST_DIFFERENCE:
         return 0
-    return int(dips[unlike[dips] <= deepest + SLACK][0])
+    return int(dips[unlike[dips] <= deepest + PERIOD_SLACK][0])
 
 
-def unlikeness(passage: Float[np.ndarray, "frames d"], longest: int) -> Float[np.ndarray, "lags"]:
+def difference_function(passage: Float[np.ndarray, "frames d"], longest: int) -> Float[np.ndarray, "lags"]:
     """For lags 0 … `longest`: the mean square difference of frames a lag apart, over its mean at lags 1 … lag."""
     frames = len(passage)
     spectrum = np.fft.rfft(passage, 2 * frames, axis=0)

@@ -14,8 +14,8 @@ from sklearn.cluster import KMeans
 from sklearn.metrics import adjusted_rand_score
 from sklearn.pipeline import make_pipeline
 
-from core import MotionFeatures, MotionSegmenter, open_animation, segment
-from samples.figures import figure
+from caesura import MotionFeatures, MotionSegmenter, open_animation, segment
+from caesura.samples.figures import figure
 
 
 def main(table: Path) -> None:

@@ -8,9 +8,9 @@ Materials, textures and everything else stay as they are. Frame numbers are your
 import sys
 from pathlib import Path
 
-from core import segment
-from core.formats.clips.options import ClipOptions
-from core.formats.clips.write import write_clips
+from caesura import segment
+from caesura.formats.clips.clip_options import ClipOptions
+from caesura.formats.clips.write import write_clips
 
 DOUBTFUL = 3
 

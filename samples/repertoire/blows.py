@@ -1,6 +1,6 @@
 """Motions of the arms with force behind them."""
 
-from samples.motions import Motion
+from caesura.samples.motions import Motion
 
 PUNCH = Motion(
     "punch",

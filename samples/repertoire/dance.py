@@ -1,6 +1,6 @@
 """Motions of the trunk that go on and on."""
 
-from samples.motions import Motion
+from caesura.samples.motions import Motion
 
 TURN = Motion(
     "turn",

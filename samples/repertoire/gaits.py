@@ -1,6 +1,6 @@
 """Gaits: motions that carry the figure along."""
 
-from samples.motions import Motion
+from caesura.samples.motions import Motion
 
 WALK = Motion(
     "walk",

@@ -1,6 +1,6 @@
 """Motions of the arms and the head, on the spot."""
 
-from samples.motions import Motion
+from caesura.samples.motions import Motion
 
 WAVE = Motion(
     "wave",

@@ -1,6 +1,6 @@
 """What a recording holds between its motions: the calibration pose, and nobody doing anything."""
 
-from samples.motions import Motion
+from caesura.samples.motions import Motion
 
 T_POSE = Motion(
     "t-pose",

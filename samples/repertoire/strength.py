@@ -1,6 +1,6 @@
 """Motions of the whole body, with legs that bend and feet that leave the ground."""
 
-from samples.motions import Motion
+from caesura.samples.motions import Motion
 
 JUMP = Motion(
     "jump",

@@ -8,16 +8,17 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from core.document import SegmentationDocument
-from core.errors import CaesuraError
-from service.commands.problems import exit_code
+from caesura.core.control_characters import escape_control_characters
+from caesura.core.document import SegmentationDocument
+from caesura.core.errors import CaesuraError
+from caesura.service.commands.problems import exit_code
 
-BUG = 1
+BUG_MESSAGE = 1
 """The exit code where a file brought a fault of ours to light."""
 
 
 @dataclass
-class Outcome:
+class FileOutcome:
     """One file: its result, or what was wrong with it."""
 
     path: Path
@@ -29,12 +30,12 @@ class Outcome:
 class Batch:
     """The outcomes so far, in order."""
 
-    outcomes: list[Outcome] = field(default_factory=list)
+    outcomes: list[FileOutcome] = field(default_factory=list)
 
     @contextmanager
-    def file(self, path: Path) -> Iterator[Outcome]:
+    def file(self, path: Path) -> Iterator[FileOutcome]:
         """One file's work; whatever it raises is its outcome, and the next file has its turn."""
-        outcome = Outcome(path)
+        outcome = FileOutcome(path)
         self.outcomes.append(outcome)
         try:
             yield outcome
@@ -52,19 +53,22 @@ class Batch:
         """0 where all went well, else the code of the first that did not."""
         for outcome in self.outcomes:
             if outcome.problem is not None:
-                return BUG if outcome.problem["kind"] == "bug" else exit_code(outcome.problem)
+                return BUG_MESSAGE if outcome.problem["kind"] == "bug" else exit_code(outcome.problem)
         return 0
 
     def table(self) -> str:
         """One line a file, then how many of them are done."""
-        names = max(len("file"), *(len(str(outcome.path)) for outcome in self.outcomes))
+        paths = [escape_control_characters(str(outcome.path)) for outcome in self.outcomes]
+        names = max(map(len, ["file", *paths]))
         lines = [f"{'file':<{names}}  {'frames':>8}  {'seconds':>8}  motions  segments  least sure cut"]
-        lines += [f"{outcome.path!s:<{names}}  {_cells(outcome)}".rstrip() for outcome in self.outcomes]
+        lines += [
+            f"{path:<{names}}  {_cells(outcome)}".rstrip() for path, outcome in zip(paths, self.outcomes, strict=True)
+        ]
         done = sum(outcome.found is not None and outcome.problem is None for outcome in self.outcomes)
         return "\n".join([*lines, "", f"{done} of {len(self.outcomes)} done"])
 
 
-def _cells(outcome: Outcome) -> str:
+def _cells(outcome: FileOutcome) -> str:
     found = outcome.found
     if outcome.problem is not None or found is None:
         return f"failed: {(outcome.problem or {}).get('code', '')}"

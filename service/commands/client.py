@@ -6,10 +6,10 @@ from typing import IO, Any
 
 import httpx
 
-from core.document import SegmentationDocument
-from core.errors import CaesuraError
-from core.progress import Progress, ignore
-from service.commands.problems import Unreachable
+from caesura.core.document import SegmentationDocument
+from caesura.core.errors import CaesuraError
+from caesura.core.progress import Progress, ignore_progress
+from caesura.service.commands.problems import Unreachable
 
 CHUNK_BYTES = 2**18
 FIRST_WAIT_SECONDS = 2  # a short take is answered by the upload's own response
@@ -49,7 +49,7 @@ class Client:
         self._http.close()
 
     def segment(
-        self, file: IO[bytes], name: str, parameters: Mapping[str, str], progress: Progress = ignore
+        self, file: IO[bytes], name: str, parameters: Mapping[str, str], progress: Progress = ignore_progress
     ) -> SegmentationDocument:
         """Upload the file, wait until it is cut, and fetch the result; raises `Refused` or `Unreachable`."""
         status = self._ask(

@@ -7,10 +7,11 @@ from itertools import zip_longest
 
 import click
 
-from core.document import Segment, SegmentationDocument
-from service.commands.labelling import Labelling, agreement
-from service.commands.problems import Command
-from service.commands.progress_bar import ProgressBar
+from caesura.core.control_characters import escape_control_characters
+from caesura.core.document import Segment, SegmentationDocument
+from caesura.service.commands.labelling import Labelling, compute_agreement
+from caesura.service.commands.problems import Command
+from caesura.service.commands.progress_bar import ProgressBar
 
 GOOD_ACCURACY = 0.95
 
@@ -26,14 +27,14 @@ def demo(context: click.Context, /, once: bool, port: int, url: str | None) -> N
     The figures are made here, motion by motion, so their truth is known exactly. Everything goes through the
     service's API, as any other client would. The exit code is 1 where a figure's frame accuracy is below 0.95.
     """
-    from service.commands.local_service import local_service
+    from caesura.service.commands.local_service import local_service
 
     if url:
-        accuracy = _demonstrate(url)
+        accuracy = _segment_samples(url)
     else:
         click.echo("Starting the service; the first start compiles its kernels, which takes a minute or so.", err=True)
         with local_service(port) as started:
-            accuracy = _demonstrate(started)
+            accuracy = _segment_samples(started)
             if not once:
                 click.echo(f"Drop files of your own on {started} ; Ctrl-C ends it.")
                 with suppress(KeyboardInterrupt):
@@ -41,10 +42,10 @@ def demo(context: click.Context, /, once: bool, port: int, url: str | None) -> N
     context.exit(0 if accuracy >= GOOD_ACCURACY else 1)
 
 
-def _demonstrate(url: str) -> float:
+def _segment_samples(url: str) -> float:
     """Upload, wait, compare and print, for each figure; the lowest frame accuracy."""
-    from samples.figures import FIGURES, figure
-    from service.commands.client import Client
+    from caesura.samples.figures import FIGURES, figure
+    from caesura.service.commands.client import Client
 
     accuracies = []
     with Client(url) as client:
@@ -55,7 +56,7 @@ def _demonstrate(url: str) -> float:
             with ProgressBar() as progress:
                 glb = io.BytesIO(sample.glb)
                 found = client.segment(glb, f"{name}.glb", {"motions": str(motions)}, progress)
-            accuracy = agreement(Labelling.of(found.model_dump()), truth)["frame_accuracy"]
+            accuracy = compute_agreement(Labelling.of(found.model_dump()), truth)["frame_accuracy"]
             click.echo(_comparison(name, found, truth))
             click.echo(f"  frame accuracy {accuracy:.3f}, told that there are {motions} motions")
             click.echo(f"  {url}/view/{found.id}\n")
@@ -68,13 +69,13 @@ def _comparison(name: str, found: SegmentationDocument, truth: Labelling) -> str
     rows = [f"{name} figure, {found.frames} frames at {found.frame_rate:g} a second", ""]
     rows.append(f"  {'truth':<32}found")
     for given, segment in zip_longest(truth.segments, found.segments):
-        rows.append(f"  {_span(*given) if given else '':<32}{_found(segment) if segment else ''}".rstrip())
+        rows.append(f"  {_seconds_span(*given) if given else '':<32}{_found(segment) if segment else ''}".rstrip())
     return "\n".join(rows)
 
 
 def _found(segment: Segment) -> str:
-    return _span(segment.start, segment.end, segment.name)
+    return _seconds_span(segment.start, segment.end, segment.name)
 
 
-def _span(start: int, end: int, label: str) -> str:
-    return f"{start:>5} … {end:>5}  {label}"
+def _seconds_span(start: int, end: int, label: str) -> str:
+    return f"{start:>5} … {end:>5}  {escape_control_characters(label)}"

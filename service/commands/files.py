@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 
-class Files(click.ParamType[tuple[Path, ...]]):
+class ExistingFiles(click.ParamType[tuple[Path, ...]]):
     """A file, or a pattern of files: shells such as Windows' leave `*.glb` to the program."""
 
     name = "file"
@@ -20,13 +20,13 @@ class Files(click.ParamType[tuple[Path, ...]]):
             return (path,)
         if path.is_dir():
             self.fail(f"{value!r} is a folder; say which of its files, such as '{path / '*.glb'}'.", param, ctx)
-        found = matching(path)
+        found = expand_pattern(path)
         if not found:
             self.fail(f"There is no file {value!r}.", param, ctx)
         return found
 
 
-def matching(pattern: Path) -> tuple[Path, ...]:
+def expand_pattern(pattern: Path) -> tuple[Path, ...]:
     """The files of a pattern with `*`, `?`, `[…]` or `**`, sorted; none where it is no pattern."""
     if not set("*?[") & set(str(pattern)):
         return ()
@@ -34,7 +34,7 @@ def matching(pattern: Path) -> tuple[Path, ...]:
     return tuple(sorted(path for path in Path(pattern.anchor or ".").glob(below) if path.is_file()))
 
 
-def targets(files: Sequence[Path], folder: Path) -> list[Path]:
+def output_paths(files: Sequence[Path], folder: Path) -> list[Path]:
     """Where in `folder` the results of each file go, without a suffix: as the files lie below what they share.
 
     Files of one name but for the suffix keep theirs, so that no result is written over another.

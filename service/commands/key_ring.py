@@ -2,10 +2,10 @@
 
 import redis
 
-from core.errors import ParameterError
-from service.credentials import KeyRecord
-from worker import keys
-from worker.connection import names
+from caesura.core.errors import ParameterError
+from caesura.service.api_keys.credentials import KeyRecord
+from caesura.worker.records import redis_keys
+from caesura.worker.records.connection import names
 
 
 class KeyRing:
@@ -17,19 +17,19 @@ class KeyRing:
     def add(self, record: KeyRecord) -> None:
         """Keep a new key; raises `ParameterError` where its name is taken."""
         with self._redis.pipeline() as pipe:
-            pipe.watch(keys.API_KEYS_KEY)
-            if pipe.hexists(keys.API_KEYS_KEY, record.name):
+            pipe.watch(redis_keys.API_KEYS_KEY)
+            if pipe.hexists(redis_keys.API_KEYS_KEY, record.name):
                 detail = f"There is a key {record.name!r} already. Revoke it first, or choose another name."
                 raise ParameterError("name-taken", detail, parameter="name")
             pipe.multi()
-            pipe.hset(keys.API_KEYS_KEY, record.name, record.digest)
-            pipe.set(keys.api_key_key(record.digest), record.model_dump_json())
+            pipe.hset(redis_keys.API_KEYS_KEY, record.name, record.digest)
+            pipe.set(redis_keys.api_key_key(record.digest), record.model_dump_json())
             pipe.execute()
 
     def all(self) -> list[KeyRecord]:
         """All keys, oldest first."""
-        digests = names(self._redis.hvals(keys.API_KEYS_KEY))
-        stored = self._redis.mget([keys.api_key_key(digest) for digest in digests]) if digests else []
+        digests = names(self._redis.hvals(redis_keys.API_KEYS_KEY))
+        stored = self._redis.mget([redis_keys.api_key_key(digest) for digest in digests]) if digests else []
         known = [record for record in map(KeyRecord.read, stored) if record is not None]
         return sorted(known, key=lambda record: record.created)
 
@@ -44,6 +44,7 @@ class KeyRing:
         """From now on the key opens nothing, and nobody who signed in with it is signed in."""
         record = self.named(name)
         with self._redis.pipeline() as pipe:
-            pipe.delete(keys.api_key_key(record.digest))
-            pipe.hdel(keys.API_KEYS_KEY, name)
+            pipe.delete(redis_keys.api_key_key(record.digest))
+            pipe.hdel(redis_keys.API_KEYS_KEY, name)
+            pipe.set(redis_keys.DELETED_KEY, b"1")
             pipe.execute()

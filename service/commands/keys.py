@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import click
 
-from core.errors import ParameterError
-from service.commands.problems import Command, Unreachable
+from caesura.core.errors import ParameterError
+from caesura.service.commands.problems import Command, Unreachable
 
 if TYPE_CHECKING:
-    from service.commands.key_ring import KeyRing
+    from caesura.service.commands.key_ring import KeyRing
 
 
 @click.group()
@@ -32,8 +32,8 @@ def keys() -> None:
 @click.option("--line", is_flag=True, help="Keep it nowhere: print the line for CAESURA_KEYS_FILE too.")
 def add(name: str, like: str | None, local: bool, metrics: bool, line: bool) -> None:
     """Make a key called NAME, and show it."""
-    from service import key_file
-    from service.credentials import new_key
+    from caesura.service.api_keys import key_file
+    from caesura.service.api_keys.credentials import new_key
 
     if sum(map(bool, (like, local, metrics))) > 1:
         detail = "--like, --local and --metrics each say what the key sees. Give one of them."
@@ -42,7 +42,7 @@ def add(name: str, like: str | None, local: bool, metrics: bool, line: bool) -> 
         if like:
             raise ParameterError("invalid-parameter", "With --line, copy the owner from the other key's line.")
         key, record = new_key(name, metrics=metrics)
-        click.echo(f"{key}\n{key_file.line(record)}")
+        click.echo(f"{key}\n{key_file.key_file_line(record)}")
         return
     with _ring() as ring:
         owner = "" if local else ring.named(like).owner if like else None
@@ -73,9 +73,9 @@ def _ring() -> Iterator["KeyRing"]:
     """The keys of the service; raises `Unreachable` where its Redis does not answer."""
     from redis.exceptions import RedisError
 
-    from service.commands.key_ring import KeyRing
-    from service.settings import ServiceSettings
-    from worker.connection import connect
+    from caesura.service.commands.key_ring import KeyRing
+    from caesura.service.settings import ServiceSettings
+    from caesura.worker.records.connection import connect
 
     location = ServiceSettings().redis_location
     try:

@@ -6,9 +6,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from core.errors import InvalidModel
+from caesura.core.errors import InvalidModel
 
 TOLERANCES_SECONDS = (0.5, 0.15)
+MAX_FRAMES = 10**9
+"""A year at 30 frames a second; the squares of counts of frames fit into 64 bits."""
+MAX_LABELS = 1000
+"""The best matching of labels takes O(labels³) time and O(labels²) memory."""
 
 
 @dataclass(frozen=True)
@@ -43,13 +47,15 @@ class Labelling:
             raise ValueError("the segments do not tile its frames")
         if not segments or any(start >= end for start, end, _ in segments):
             raise ValueError("it has no segments, or some without frames")
+        if bounds[-1] > MAX_FRAMES or len({label for _, _, label in segments}) > MAX_LABELS:
+            raise ValueError(f"it has more than {MAX_FRAMES} frames or {MAX_LABELS} labels")
         rate = float(document["frame_rate"] if "frame_rate" in document else document["fps"])
         if not (math.isfinite(rate) and rate > 0):
             raise ValueError(f"{rate:g} frames a second are no frame rate")
         return cls(rate, int(document["frames"]), segments)
 
 
-def agreement(found: Labelling, truth: Labelling) -> dict[str, float]:
+def compute_agreement(found: Labelling, truth: Labelling) -> dict[str, float]:
     """Frame accuracy under the best matching of labels, adjusted Rand index, boundary F1 at each tolerance."""
     if (found.frames, found.frame_rate) != (truth.frames, truth.frame_rate):
         raise InvalidModel(
@@ -60,18 +66,23 @@ def agreement(found: Labelling, truth: Labelling) -> dict[str, float]:
 
     import numpy as np
 
-    from core.agreement import adjusted_rand_index, boundary_scores, frame_accuracy
+    from caesura.core.agreement import adjusted_rand_index, boundary_scores, frame_accuracy
+
+    ends = np.unique([end for of in (found, truth) for _, end, _ in of.segments])
+    lengths = np.diff(ends, prepend=0)
 
     def labels(of: Labelling) -> Any:
+        """The label of each run of frames in which neither changes."""
         names = {name: i for i, name in enumerate(dict.fromkeys(name for _, _, name in of.segments))}
-        return np.concatenate([np.full(end - start, names[name], np.int64) for start, end, name in of.segments])
+        segments = np.searchsorted([end for _, end, _ in of.segments], ends)
+        return np.array([names[name] for _, _, name in of.segments])[segments]
 
     def cuts(of: Labelling) -> Any:
         return np.array([start for start, _, _ in of.segments[1:]], np.int64)
 
     figures = {
-        "frame_accuracy": float(frame_accuracy(labels(found), labels(truth))),
-        "adjusted_rand_index": float(adjusted_rand_index(labels(found), labels(truth))),
+        "frame_accuracy": float(frame_accuracy(labels(found), labels(truth), lengths)),
+        "adjusted_rand_index": float(adjusted_rand_index(labels(found), labels(truth), lengths)),
     }
     for seconds in TOLERANCES_SECONDS:
         scores = boundary_scores(cuts(found), cuts(truth), round(seconds * truth.frame_rate))

@@ -13,8 +13,8 @@ from tempfile import TemporaryDirectory
 
 import httpx
 
-from service.commands.problems import Unreachable
-from worker.lifeline import lifeline
+from caesura.service.commands.problems import Unreachable
+from caesura.worker.parent_watch import parent_watch
 
 START_SECONDS = 60.0
 STOP_SECONDS = 30.0
@@ -32,7 +32,14 @@ def local_service(port: int) -> Iterator[str]:
     if port and _is_caesura(f"http://127.0.0.1:{port}"):
         yield f"http://127.0.0.1:{port}"
         return
-    command = [sys.executable, "-m", "service.cli", "serve", "--port", str(port if _is_free(port) else 0)]
+    command = [
+        sys.executable,
+        "-m",
+        "caesura.service.commands.cli",
+        "serve",
+        "--port",
+        str(port if _is_free(port) else 0),
+    ]
     with TemporaryDirectory(prefix="caesura-") as folder:
         log = Path(folder) / "log"
         with log.open("wb") as output:
@@ -42,7 +49,7 @@ def local_service(port: int) -> Iterator[str]:
                 stdout=output,
                 stderr=output,
                 start_new_session=True,  # Ctrl-C is for this process, which ends the other in order
-                preexec_fn=lifeline(signal.SIGTERM),  # noqa: PLW1509  one prctl call between fork and exec
+                preexec_fn=parent_watch(signal.SIGTERM),  # noqa: PLW1509  one prctl call between fork and exec
             )
         try:
             yield _address(log, process)

@@ -1,4 +1,4 @@
-"""Every parameter of the method as an option, made from `core.parameters`: one spelling, one description."""
+"""Every parameter of the method as an option, made from `caesura.core.parameters`: one spelling, one description."""
 
 from collections.abc import Callable
 from typing import Annotated, Any, get_args, get_origin
@@ -6,11 +6,11 @@ from typing import Annotated, Any, get_args, get_origin
 import click
 from pydantic.fields import FieldInfo
 
-from core.formats.clips.options import ClipOptions
-from core.parameters import Parameters
+from caesura.core.parameters import Parameters
+from caesura.formats.clips.clip_options import ClipOptions
 
 
-def parameters(function: Callable[..., Any]) -> Callable[..., Any]:
+def parameter_option_decorators(function: Callable[..., Any]) -> Callable[..., Any]:
     """Add an option for each parameter; the command receives those given, as text, among its keyword arguments.
 
     Names are written with dashes or underscores. Values stay text: `Parameters.parse` judges them, as it does a
@@ -21,7 +21,7 @@ def parameters(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
-def clips(function: Callable[..., Any]) -> Callable[..., Any]:
+def clip_option_decorators(function: Callable[..., Any]) -> Callable[..., Any]:
     """Add an option for each choice of clips; the command receives it as `clip_NAME`, for `files` is its own."""
     for name, field in reversed(ClipOptions.model_fields.items()):
         flag, text = f"--{name.replace('_', '-')}", f"{field.description}  [of --clips]"
@@ -39,12 +39,12 @@ def clip_options(arguments: dict[str, Any]) -> ClipOptions:
     return ClipOptions.of({name: value for name, value in named.items() if value is not None})
 
 
-def given(arguments: dict[str, Any]) -> dict[str, str]:
+def given_parameters(arguments: dict[str, Any]) -> dict[str, str]:
     """The parameters that were given, out of a command's keyword arguments."""
     return {name: arguments[name] for name in Parameters.model_fields if arguments[name] is not None}
 
 
-def dashes(token: str) -> str:
+def with_dashes(token: str) -> str:
     """`--window_seconds`, as the API spells it, is `--window-seconds`."""
     return token.replace("_", "-")
 

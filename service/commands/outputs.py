@@ -8,12 +8,12 @@ from typing import Any
 
 import click
 
-from core.document import SegmentationDocument
-from core.errors import CaesuraError
-from core.formats.clips.options import ClipOptions
-from service.commands.buffers import scratch
-from service.elan import segments_eaf
-from service.exports import frames_csv, plot_svg, segments_csv, segments_vtt
+from caesura.core.document import SegmentationDocument
+from caesura.core.errors import CaesuraError
+from caesura.formats.clips.clip_options import ClipOptions
+from caesura.service.commands.buffers import scratch_buffer
+from caesura.service.results.elan import segments_eaf
+from caesura.service.results.text_formats import frames_csv, plot_svg, segments_csv, segments_vtt
 
 Parts = Mapping[str, memoryview]
 Write = Callable[[Parts, SegmentationDocument, ClipOptions], tuple[str, Iterator[bytes]]]
@@ -28,27 +28,27 @@ def _text(suffix: str, written: Callable[[SegmentationDocument], str]) -> Write:
 
 
 def _clips(parts: Parts, found: SegmentationDocument, options: ClipOptions) -> tuple[str, Iterator[bytes]]:
-    from core.formats.clips.write import GLB, write_clips
+    from caesura.formats.clips.write import GLB, write_clips
 
-    written = write_clips(parts, found, options, scratch)
+    written = write_clips(parts, found, options, scratch_buffer)
     return ".clips.glb" if written.media_type == GLB else ".clips.zip", written.pieces
 
 
 def _key_poses(parts: Parts, found: SegmentationDocument, _: ClipOptions) -> tuple[str, Iterator[bytes]]:
-    from core.formats.clips.write import write_key_poses
+    from caesura.formats.clips.write import write_key_poses
 
-    return ".keyframes.glb", write_key_poses(parts, found, scratch).pieces
+    return ".keyframes.glb", write_key_poses(parts, found, scratch_buffer).pieces
 
 
 def _plot_png(_parts: Parts, found: SegmentationDocument, _options: ClipOptions) -> tuple[str, Iterator[bytes]]:
-    from core.plot.layout import picture_of
-    from core.plot.png import png
+    from caesura.core.plot.layout import lay_out_picture
+    from caesura.core.plot.png import render_png
 
     font = os.environ.get("CAESURA_FONT")
-    return ".png", iter([png(picture_of(found), Path(font).read_bytes() if font else None)])
+    return ".png", iter([render_png(lay_out_picture(found), Path(font).read_bytes() if font else None)])
 
 
-FORMS: dict[str, tuple[Write, str]] = {
+OUTPUT_FORMATS: dict[str, tuple[Write, str]] = {
     "clips": (_clips, "Write the file again with its motions as clips: a GLB, or a zip."),
     "keyframes": (_key_poses, "Write the file again with its key poses alone, as a GLB."),
     "csv": (_text(".csv", segments_csv), "Write the segments as CSV."),
@@ -61,9 +61,9 @@ FORMS: dict[str, tuple[Write, str]] = {
 DOCUMENT = _text(".json", lambda found: found.model_dump_json())
 
 
-def outputs(function: Callable[..., Any]) -> Callable[..., Any]:
+def output_option_decorators(function: Callable[..., Any]) -> Callable[..., Any]:
     """Add an option for each form; the command receives it as `write_NAME`. With `--out` it needs no name."""
-    for name, (_, text) in reversed(FORMS.items()):
+    for name, (_, text) in reversed(OUTPUT_FORMATS.items()):
         option = click.option(
             f"--{name.replace('_', '-')}",
             f"write_{name}",
@@ -85,11 +85,17 @@ class Outputs:
 
     @classmethod
     def of(
-        cls, arguments: Mapping[str, Any], options: ClipOptions, animations: Sequence[Path], folder: Path | None
+        cls,
+        arguments: Mapping[str, Any],
+        options: ClipOptions,
+        animations: Sequence[Path],
+        companions: Sequence[Path],
+        folder: Path | None,
     ) -> "Outputs":
         """Out of a command's keyword arguments; raises `UsageError` where files would be lost or are not named."""
+        sources = [*animations, *companions]
         forms: dict[str, Path | None] = {}
-        for form in FORMS:
+        for form in OUTPUT_FORMATS:
             given = arguments[f"write_{form}"]
             if given is None:
                 continue
@@ -102,7 +108,7 @@ class Outputs:
                 raise click.UsageError(
                     f"With --out, {flag} takes no name. Put it after the files, or before an option."
                 )
-            forms[form] = None if given == UNNAMED else _place(flag, Path(given), animations, forms.values())
+            forms[form] = None if given == UNNAMED else _place(flag, Path(given), sources, forms.values())
         if options.model_fields_set and "clips" not in forms:
             flag = f"--{min(options.model_fields_set).replace('_', '-')}"
             raise click.UsageError(f"{flag} says how clips are made: it needs --clips beside it.")
@@ -119,7 +125,7 @@ class Outputs:
             self._one(DOCUMENT, parts, found, target, None)
         for form, path in self.forms.items():
             try:
-                self._one(FORMS[form][0], parts, found, target, path)
+                self._one(OUTPUT_FORMATS[form][0], parts, found, target, path)
             except CaesuraError as missing:
                 refused.append(missing)
         if refused:
@@ -140,7 +146,10 @@ def _place(flag: str, path: Path, sources: Sequence[Path], taken: Iterable[Path 
         raise click.UsageError(f"'{path}' is a folder: {flag} needs the name of a file.")
     if any(other is not None and other.resolve() == path.resolve() for other in taken):
         raise click.UsageError(f"'{path}' is named twice: {flag} needs a file of its own.")
-    if path.is_file() and not any(map(path.samefile, sources)) and _is_an_animation(path):
+    is_read = path.is_file() and any(map(path.samefile, sources))
+    if is_read and (flag != "--clips" or path.suffix.lower() == ".bin"):
+        raise click.UsageError(f"'{path}' is one of the files to read, and {flag} would write over it: name another.")
+    if path.is_file() and not is_read and _is_an_animation(path):
         raise click.UsageError(
             f"'{path}' is an animation, and {flag} would write over it. Put the files before the options, or name"
             " another file."

@@ -1,12 +1,14 @@
 """How a command ends: its exit code, and what was wrong as a sentence or as JSON."""
 
 import json
+import sys
 from collections.abc import Mapping
 from typing import Any
 
 import click
 
-from core.errors import KINDS, CaesuraError, InputError
+from caesura.core.control_characters import escape_control_characters
+from caesura.core.errors import ERROR_KINDS, CaesuraError, InputError
 
 USAGE = 2
 BAD_FILE = 3
@@ -24,15 +26,16 @@ def exit_code(problem: Mapping[str, Any]) -> int:
     kind = problem.get("kind")
     if kind in {"parameter", "usage"}:
         return USAGE
-    return BAD_FILE if issubclass(KINDS.get(str(kind), Exception), InputError) else UNREACHABLE
+    return BAD_FILE if issubclass(ERROR_KINDS.get(str(kind), Exception), InputError) else UNREACHABLE
 
 
-def show(problem: Mapping[str, Any], *, as_json: bool, file: str | None = None) -> int:
+def print_problem(problem: Mapping[str, Any], *, as_json: bool, file: str | None = None) -> int:
     """Say what was wrong, and with which file, on stderr: one sentence, or the problem document; its exit code."""
     if as_json:
         click.echo(json.dumps({**problem, "file": file} if file else problem), err=True)
     else:
-        click.echo(f"caesura: {file + ': ' if file else ''}{problem['detail']} [{problem['code']}]", err=True)
+        line = f"caesura: {file + ': ' if file else ''}{problem['detail']} [{problem['code']}]"
+        click.echo(escape_control_characters(line), err=True)
     return exit_code(problem)
 
 
@@ -46,9 +49,9 @@ class Command(click.Command):
             return super().make_context(info_name, args, *rest, **extra)
         except click.UsageError as refused:
             if not as_json:
-                raise
+                raise click.UsageError(escape_control_characters(refused.format_message()), refused.ctx) from None
             problem = {"kind": "usage", "code": "usage", "detail": refused.format_message()}
-            raise click.exceptions.Exit(show(problem, as_json=True)) from None
+            raise click.exceptions.Exit(print_problem(problem, as_json=True)) from None
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run; a refusal that the command does not handle itself ends it here."""
@@ -57,7 +60,15 @@ class Command(click.Command):
             return super().invoke(ctx)
         except click.UsageError as refused:
             if not as_json:
-                raise
-            ctx.exit(show({"kind": "usage", "code": "usage", "detail": refused.format_message()}, as_json=True))
+                raise click.UsageError(escape_control_characters(refused.format_message()), refused.ctx) from None
+            ctx.exit(
+                print_problem({"kind": "usage", "code": "usage", "detail": refused.format_message()}, as_json=True)
+            )
         except CaesuraError as refused:
-            ctx.exit(show(refused.problem(), as_json=as_json))
+            ctx.exit(print_problem(refused.problem(), as_json=as_json))
+        except ModuleNotFoundError as missing:
+            name = (missing.name or "").partition(".")[0]
+            if name in {"core", "samples", "service", "worker"} | sys.stdlib_module_names:
+                raise
+            detail = f"{name} is not installed, which this command needs. Install caesura[service]."
+            ctx.exit(print_problem(Unreachable("not-installed", detail).problem(), as_json=as_json))

@@ -5,6 +5,8 @@ import time
 from types import TracebackType
 from typing import Self
 
+from caesura.core.control_characters import escape_control_characters
+
 WIDTH = 30
 BETWEEN_SECONDS = 0.1  # redrawn no oftener: a terminal over a slow line must not hold the work up
 
@@ -31,5 +33,6 @@ class ProgressBar:
             return
         self._drawn = now
         full = round(WIDTH * min(max(fraction, 0.0), 1.0))
-        sys.stderr.write(f"\r\033[K{'█' * full}{'░' * (WIDTH - full)} {fraction:4.0%} {stage}")
+        bar = f"{'█' * full}{'░' * (WIDTH - full)} {fraction:4.0%} {escape_control_characters(stage)}"
+        sys.stderr.write(f"\r\033[K{bar}")
         sys.stderr.flush()

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import click
 
-from service.commands.labelling import Labelling, agreement
-from service.commands.problems import Command
+from caesura.service.commands.labelling import Labelling, compute_agreement
+from caesura.service.commands.problems import Command
 
 
 @click.command(cls=Command)
@@ -18,7 +18,7 @@ def score(result: Path, truth: Path, as_json: bool) -> None:
 
     TRUTH is {"fps", "frames", "segments": [{"label", "start", "end"}]}, frames half-open; either may be either form.
     """
-    figures = agreement(Labelling.read(result), Labelling.read(truth))
+    figures = compute_agreement(Labelling.read(result), Labelling.read(truth))
     if as_json:
         click.echo(json.dumps(figures))
         return

@@ -6,28 +6,28 @@ from typing import Any
 
 import click
 
-from core.document import SegmentationDocument
-from core.limits import Limits
-from core.parameters import Parameters
-from service.commands import options
-from service.commands.batch import Batch
-from service.commands.buffers import mapped, scratch
-from service.commands.files import Files, targets
-from service.commands.outputs import Outputs, outputs
-from service.commands.problems import Command, show
-from service.commands.progress_bar import ProgressBar
-from service.commands.table import table
+from caesura.core.document import SegmentationDocument
+from caesura.core.limits import Limits
+from caesura.core.parameters import Parameters
+from caesura.service.commands import options
+from caesura.service.commands.batch import Batch
+from caesura.service.commands.buffers import map_file, scratch_buffer
+from caesura.service.commands.files import ExistingFiles, output_paths
+from caesura.service.commands.outputs import Outputs, output_option_decorators
+from caesura.service.commands.problems import Command, print_problem
+from caesura.service.commands.progress_bar import ProgressBar
+from caesura.service.commands.table import print_table
 
 FOLDER = click.Path(file_okay=False, path_type=Path)
 
 
 @click.command(cls=Command)
-@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=Files())
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=ExistingFiles())
 @click.option("--out", metavar="DIR", type=FOLDER, help="Write NAME.json for every FILE, and print a table at the end.")
-@outputs
-@options.parameters
+@output_option_decorators
+@options.parameter_option_decorators
 @click.option("--json", "as_json", is_flag=True, help="Print the segmentation document, one line for each file.")
-@options.clips
+@options.clip_option_decorators
 @click.option("--threads", type=click.IntRange(1), help="Threads to compute with.  [default: what this machine gives]")
 @click.pass_context
 def segment(
@@ -47,22 +47,22 @@ def segment(
 
     With --out, --clips, --csv and the like need no name: each file's results are named after it.
     """
-    parameters, chosen = Parameters.parse(options.given(given)), options.clip_options(given)
+    parameters, chosen = Parameters.parse(options.given_parameters(given)), options.clip_options(given)
     paths = list(dict.fromkeys(path for found in files for path in found))
     companions = [path for path in paths if path.suffix.lower() == ".bin"]
     animations = [path for path in paths if path not in companions] or companions
-    written = Outputs.of(given, chosen, animations, out)
+    written = Outputs.of(given, chosen, animations, companions, out)
     batch = Batch()
     for path, target in zip(animations, _targets(animations, out), strict=True):
         with batch.file(path) as outcome:
-            parts = {p.name: mapped(p) for p in [path, *(c for c in companions if c != path)]}
+            parts = {p.name: map_file(p) for p in [path, *(c for c in companions if c != path)]}
             found = _found(parts, parameters, threads)
             written.write(parts, found, target)
             outcome.found = found
             if as_json or out is None:
-                click.echo(found.model_dump_json() if as_json else table(path.name, found))
+                click.echo(found.model_dump_json() if as_json else print_table(path.name, found))
         if outcome.problem:
-            show(outcome.problem, as_json=as_json, file=str(path))
+            print_problem(outcome.problem, as_json=as_json, file=str(path))
             if as_json and len(animations) > 1:
                 click.echo("null")
     if out is not None and not as_json:
@@ -71,18 +71,18 @@ def segment(
 
 
 def _targets(animations: list[Path], out: Path | None) -> list[Path] | list[None]:
-    return [None] * len(animations) if out is None else targets(animations, out)
+    return [None] * len(animations) if out is None else output_paths(animations, out)
 
 
 def _found(parts: Mapping[str, memoryview], parameters: Parameters, threads: int | None) -> SegmentationDocument:
     """Read, analyse and cut one animation. What is heavy is imported here, and what computes only for a good file."""
-    from core.formats.read import read_animation
+    from caesura.formats.read import read_animation
 
     with ProgressBar() as progress:
         progress("reading", 0.0)
-        animation = read_animation(parts, parameters, Limits.none(), scratch)
+        animation = read_animation(parts, parameters, Limits.none(), scratch_buffer)
 
-        from core.pipeline import segment as motions_of
-        from worker.cpu import available_threads
+        from caesura.core.pipeline import segment as motions_of
+        from caesura.worker.process.thread_count import available_threads
 
         return motions_of(animation, parameters, threads=threads or available_threads(), progress=progress).document()

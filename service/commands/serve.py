@@ -5,8 +5,8 @@ from typing import Any
 import click
 from pydantic import ValidationError
 
-from core.errors import ParameterError
-from service.commands.problems import Command, Unreachable
+from caesura.core.errors import ParameterError
+from caesura.service.commands.problems import Command, Unreachable
 
 
 @click.command(cls=Command)
@@ -19,14 +19,14 @@ def serve(**given: Any) -> None:
 
     CAESURA_DATA_DIR is the one folder it writes to. Ctrl-C or SIGTERM ends it, and everything that it started.
     """
-    from service.settings import ServiceSettings
-    from service.supervisor import serve as supervise
-    from worker import logs
-    from worker.redis_folder import ServerUnavailable
+    from caesura.service.process.supervisor import run_supervisor as supervise
+    from caesura.service.settings import ServiceSettings
+    from caesura.worker import logs
+    from caesura.worker.embedded_redis.data_folder import ServerUnavailable
 
     try:
         settings = ServiceSettings(**{name: value for name, value in given.items() if value is not None})
-        logs.configure(settings.log_format)
+        logs.configure_logging(settings.log_format)
         supervise(settings)
     except ValidationError as refused:
         first = refused.errors()[0]

@@ -2,12 +2,14 @@
 
 from collections.abc import Iterator
 
-from core.document import SegmentationDocument
+from caesura.core.control_characters import escape_control_characters
+from caesura.core.document import SegmentationDocument
 
 
-def table(name: str, found: SegmentationDocument) -> str:
+def print_table(name: str, found: SegmentationDocument) -> str:
     """The headline, a line for each segment, then what the result warns of."""
-    return "\n".join([_headline(name, found), "", *_rows(found), *_warnings(found)])
+    lines = [_headline(name, found), "", *_rows(found), *_warnings(found)]
+    return "\n".join(map(escape_control_characters, lines))
 
 
 def _headline(name: str, found: SegmentationDocument) -> str:

@@ -2,8 +2,10 @@
 
 import click
 
+from caesura.service.commands.problems import Command
 
-@click.command()
+
+@click.command(cls=Command)
 @click.option("--queues", multiple=True, metavar="NAME,...", help="One worker that takes from these; may be repeated.")
 @click.option("--check", is_flag=True, help="End at once: 0 where a worker of this machine is alive, 1 where none is.")
 def worker(queues: tuple[str, ...], check: bool) -> None:
@@ -12,7 +14,7 @@ def worker(queues: tuple[str, ...], check: bool) -> None:
     Without --queues: one worker for `analyse` and `cut`, and one for `cut` alone, so that a new number of motions
     never waits behind a long take.
     """
-    from worker.__main__ import main
+    from caesura.worker.__main__ import main
 
     chosen = [word for names in queues for word in ("--queues", names)]
     main([*chosen, *(["--check"] if check else [])])

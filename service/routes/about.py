@@ -3,12 +3,12 @@
 from fastapi import APIRouter, Response
 from pydantic import BaseModel
 
-from core.limits import Limits
-from core.parameters import ALGORITHM, Parameters
-from service.answers import answer
-from service.backend import Behind
-from service.forms import EXPORTS, ExportDocument
-from service.methods import MethodDocument, methods
+from caesura.core.limits import Limits
+from caesura.core.parameters import ALGORITHM, Parameters
+from caesura.service.api_description.method_schemas import MethodDocument, describe_methods
+from caesura.service.backend import BackendDependency
+from caesura.service.results.result_formats import EXPORTS, ExportDocument
+from caesura.service.segmentations.status_response import status_response
 
 router = APIRouter(prefix="/v1", tags=["about"])
 
@@ -37,17 +37,17 @@ class LimitsDocument(Limits):
 async def list_methods() -> Response:
     """The methods, each with the JSON Schema of its parameters."""
     default = Parameters.model_fields["method"].default
-    return answer(MethodList(algorithm=ALGORITHM, default=default, methods=methods()))
+    return status_response(MethodList(algorithm=ALGORITHM, default=default, methods=describe_methods()))
 
 
 @router.get("/exports", response_model=ExportList)
 async def list_exports() -> Response:
     """The files that are made of a result: where each is, what it is called, and what it is for."""
-    return answer(ExportList(exports=EXPORTS))
+    return status_response(ExportList(exports=EXPORTS))
 
 
 @router.get("/limits", response_model=LimitsDocument)
-async def limits(backend: Behind) -> Response:
+async def limits(backend: BackendDependency) -> Response:
     """How large an upload and a model may be here."""
     settings = backend.settings
-    return answer(LimitsDocument(**settings.limits.model_dump(), max_upload_bytes=settings.max_upload_bytes))
+    return status_response(LimitsDocument(**settings.limits.model_dump(), max_upload_bytes=settings.max_upload_bytes))

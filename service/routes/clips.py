@@ -7,14 +7,14 @@ from typing import Annotated
 from fastapi import APIRouter, Query, Request, Response
 from pydantic import Field
 
-from core.formats.clips.options import ClipOptions
-from service.access import Owner
-from service.backend import Backend, Behind
-from service.descriptions import CLIPS, KEY_POSES
-from service.errors import Refusal
-from service.preferences import wait_seconds
-from service.results import made_file, unfinished
-from service.revisions import WHICH, Revision, number_of
+from caesura.formats.clips.clip_options import ClipOptions
+from caesura.service.api_description.descriptions import CLIPS, KEY_POSES
+from caesura.service.auth.request_owner import Owner
+from caesura.service.backend import Backend, BackendDependency
+from caesura.service.http.prefer_header import preferred_wait_seconds
+from caesura.service.problems.status_table import Refusal
+from caesura.service.results.result_response import result_file_response, unfinished_response
+from caesura.service.results.revision_request import WHICH, Revision, revision_number
 
 
 class ClipQuery(ClipOptions):
@@ -39,7 +39,7 @@ router = APIRouter(prefix="/v1/segmentations/{identifier}", tags=["clips"])
 
 @router.get("/clips", responses=CLIPS)
 async def clips(
-    identifier: str, request: Request, backend: Behind, owner: Owner, options: Annotated[ClipQuery, Query()]
+    identifier: str, request: Request, backend: BackendDependency, owner: Owner, options: Annotated[ClipQuery, Query()]
 ) -> Response:
     """The uploaded glTF with one named animation for each segment, all else untouched.
 
@@ -50,23 +50,25 @@ async def clips(
 
 @router.get("/keyframes", responses=KEY_POSES)
 async def keyframes(
-    identifier: str, request: Request, backend: Behind, owner: Owner, revision: Revision = "0"
+    identifier: str, request: Request, backend: BackendDependency, owner: Owner, revision: Revision = "0"
 ) -> Response:
     """The uploaded glTF with one animation that steps from key pose to key pose."""
     return await _made(identifier, request, backend, owner, _Made("keyframes", revision))
 
 
 async def _made(identifier: str, request: Request, backend: Backend, owner: str, made: _Made) -> Response:
-    record = await backend.awaited(await backend.segmentation(identifier, owner), wait_seconds(request))
-    refused = unfinished(request, record)
+    record = await backend.wait_until_settled(
+        await backend.segmentation(identifier, owner), preferred_wait_seconds(request)
+    )
+    refused = unfinished_response(request, record)
     if refused is not None:
         return refused
     animation = await backend.animation(record.animation, owner)
     if not animation.parts:
         raise Refusal("gone", "The upload is no longer kept here: its time has run out. Upload it again.")
-    number = number_of(record, made.revision)
+    number = revision_number(record, made.revision)
     query = "&".join(filter(None, (f"revision={number}" if number else "", made.choices)))
     form = f"{made.what}?{query}" if query else made.what
     stem = PurePath(record.name or animation.name).stem or record.id
     here = f"/v1/segmentations/{identifier}/{form}"
-    return await made_file(backend, request, record, form, here, f"{stem}-{made.what}.glb")
+    return await result_file_response(backend, request, record, form, here, f"{stem}-{made.what}.glb")

@@ -5,10 +5,10 @@ from fastapi import APIRouter, Request, Response
 from fastapi.responses import JSONResponse, PlainTextResponse
 from prometheus_client import CONTENT_TYPE_LATEST
 
-from service.backend import Behind
-from service.errors import Refusal
-from service.headroom import looked
-from service.metrics import Metrics
+from caesura.service.backend import BackendDependency
+from caesura.service.metrics import Metrics
+from caesura.service.problems.status_table import Refusal
+from caesura.service.uploads.capacity import idle, look_for_capacity
 
 router = APIRouter(tags=["health"])
 
@@ -20,16 +20,19 @@ async def alive() -> Response:
 
 
 @router.get("/readyz")
-async def ready(backend: Behind) -> Response:
-    """Whether Redis, the disk and the store can be used and have room for more work; 503 says what has not."""
-    wrong = await looked(backend)
+async def ready(backend: BackendDependency) -> Response:
+    """Whether Redis, the disk and the store can be used and have room for more work, and whether warm workers take it
+
+    from both queues; 503 says what is missing.
+    """
+    wrong = await look_for_capacity(backend) or await idle(backend)
     if wrong:
         raise Refusal("not-ready", wrong)
     return JSONResponse({"status": "ready"})
 
 
 @router.get("/metrics", response_class=PlainTextResponse)
-async def metrics(request: Request, backend: Behind) -> Response:
+async def metrics(request: Request, backend: BackendDependency) -> Response:
     """For Prometheus: requests, queues, jobs and their stages, the store. See docs/operations.md."""
     counted: Metrics = request.app.state.metrics
     text = await to_thread.run_sync(counted.text, backend)

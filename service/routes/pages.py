@@ -12,8 +12,8 @@ from starlette.responses import FileResponse
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
-from service.errors import Refusal
-from service.security import page_policy
+from caesura.service.http.security_headers import page_policy
+from caesura.service.problems.status_table import Refusal
 
 STATIC = Path(__file__).resolve().parent.parent / "static"
 

@@ -3,70 +3,78 @@
 from anyio import to_thread
 from fastapi import APIRouter, Request, Response
 
-from core.revision import checked
-from service.access import Owner
-from service.answers import answer
-from service.backend import Backend, Behind
-from service.descriptions import REVISED, REVISION_BODY
-from service.documents import RevisionDocument, RevisionEntry, RevisionList
-from service.ranges import caching, not_modified
-from service.results import unfinished
-from service.revisions import document_of, expected, number_of, order_of, stale
-from worker.revisions import Revisions, add_revision
-from worker.schema import RevisionRecord, SegmentationRecord
+from caesura.core.revision import check_edits
+from caesura.service.api_description.descriptions import REVISED, REVISION_BODY
+from caesura.service.auth.request_owner import Owner
+from caesura.service.backend import Backend, BackendDependency
+from caesura.service.documents import RevisionDocument, RevisionEntry, RevisionList
+from caesura.service.results.byte_ranges import cache_headers, is_not_modified
+from caesura.service.results.result_response import unfinished_response
+from caesura.service.results.revision_request import (
+    expected_revision,
+    parse_revision_request,
+    refuse_stale_revision,
+    revised_document,
+    revision_number,
+)
+from caesura.service.segmentations.status_response import status_response
+from caesura.worker.records.revisions import Revisions, add_revision
+from caesura.worker.records.schema import RevisionRecord, SegmentationRecord
 
 router = APIRouter(prefix="/v1/segmentations/{identifier}/revisions", tags=["revisions"])
 
 
 @router.post("", status_code=201, response_model=RevisionDocument, responses=REVISED, openapi_extra=REVISION_BODY)
-async def create(identifier: str, request: Request, backend: Behind, owner: Owner) -> Response:
+async def create(identifier: str, request: Request, backend: BackendDependency, owner: Owner) -> Response:
     """Keep the segments as a person has set them, as the newest revision; the computed result stays as it is.
 
     If-Match names the revision that was edited: where another has come since, 412 and nothing is kept.
     """
     record = await backend.segmentation(identifier, owner)
-    refused = unfinished(request, record)
+    refused = unfinished_response(request, record)
     if refused is not None:
         return refused
-    before = expected(request)
-    order = await order_of(request)
-    edits = checked(order.segments, record.frames or 0)
+    before = expected_revision(request)
+    order = await parse_revision_request(request)
+    edits = check_edits(order.segments, record.frames or 0)
     kept = await to_thread.run_sync(add_revision, backend.jobs.records, identifier, before, order.note, edits)
     if kept is None:
-        raise stale(await backend.segmentation(identifier, owner))
+        raise refuse_stale_revision(await backend.segmentation(identifier, owner))
     headers = {"Location": f"/v1/segmentations/{identifier}/revisions/{kept.number}", "ETag": f'"{kept.number}"'}
-    return answer(await _document(backend, record, kept), 201, headers)
+    return status_response(await _document(backend, record, kept), 201, headers)
 
 
 @router.get("", response_model=RevisionList)
-async def revisions(identifier: str, request: Request, backend: Behind, owner: Owner) -> Response:
+async def revisions(identifier: str, request: Request, backend: BackendDependency, owner: Owner) -> Response:
     """Every revision without its segments, the computed result first; the ETag is that of the newest."""
     record = await backend.segmentation(identifier, owner)
-    refused = unfinished(request, record)
+    refused = unfinished_response(request, record)
     if refused is not None:
         return refused
     kept = [_computed(record), *await Revisions(backend.records).all(identifier)]
     entries = tuple(RevisionEntry.of(identifier, one) for one in kept)
-    return answer(RevisionList(revisions=entries), 200, caching(f'"{kept[-1].number}"'))
+    return status_response(RevisionList(revisions=entries), 200, cache_headers(f'"{kept[-1].number}"'))
 
 
 @router.get("/{revision}", response_model=RevisionDocument)
-async def revision(identifier: str, revision: str, request: Request, backend: Behind, owner: Owner) -> Response:
+async def revision(
+    identifier: str, revision: str, request: Request, backend: BackendDependency, owner: Owner
+) -> Response:
     """One revision with its segments: 0 is the result as computed, `latest` the newest."""
     record = await backend.segmentation(identifier, owner)
-    refused = unfinished(request, record)
+    refused = unfinished_response(request, record)
     if refused is not None:
         return refused
-    number = number_of(record, revision)
-    headers = caching(f'"{number}"')
-    if not_modified(request, headers["ETag"]):
+    number = revision_number(record, revision)
+    headers = cache_headers(f'"{number}"')
+    if is_not_modified(request, headers["ETag"]):
         return Response(status_code=304, headers=headers)
     kept = await Revisions(backend.records).one(identifier, number) if number else None
-    return answer(await _document(backend, record, kept[0] if kept else _computed(record)), 200, headers)
+    return status_response(await _document(backend, record, kept[0] if kept else _computed(record)), 200, headers)
 
 
 async def _document(backend: Backend, record: SegmentationRecord, kept: RevisionRecord) -> RevisionDocument:
-    segments = (await document_of(backend, record, kept.number)).segments
+    segments = (await revised_document(backend, record, kept.number)).segments
     return RevisionDocument.of(record.id, kept, segments=segments)
 
 

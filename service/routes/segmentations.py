@@ -1,6 +1,5 @@
 """Segmentations: asking for one, following it, cancelling or deleting it."""
 
-import itertools
 from functools import partial
 from typing import Annotated
 
@@ -8,104 +7,108 @@ from anyio import to_thread
 from fastapi import APIRouter, Header, Query, Request, Response
 from fastapi.responses import StreamingResponse
 
-from core.parameters import Parameters
-from service.access import Owner
-from service.answers import answer, outcome, preference_applied, text_answer
-from service.backend import Behind
-from service.descriptions import EVENTS, SUBMISSION, SUBMITTED
-from service.documents import SegmentationPage, StatusDocument
-from service.events import event_id, seated, status_events
-from service.intake import keep
-from service.orders import json_order, query_order
-from service.paging import Cursor, Limit, created_before, cursor_of
-from service.preferences import wait_seconds
-from service.seats import who_asks
-from service.submission import submit
-from service.uploads import received
-from service.visitors import admitted
-from worker.forgetting import forget_segmentation
-from worker.schema import SegmentationRecord
+from caesura.core.parameters import Parameters
+from caesura.service.api_description.descriptions import EVENTS, SUBMISSION, SUBMITTED
+from caesura.service.auth.authentication import is_still_admitted
+from caesura.service.auth.request_owner import Owner
+from caesura.service.backend import BackendDependency
+from caesura.service.documents import SegmentationPage, StatusDocument
+from caesura.service.http.json_body import is_json
+from caesura.service.http.paging import Cursor, Limit, decode_cursor, encode_cursor
+from caesura.service.http.prefer_header import preferred_wait_seconds
+from caesura.service.http.stream_limit import stream_client
+from caesura.service.segmentations.event_stream import counted_stream, event_id, status_events
+from caesura.service.segmentations.segmentation_request import request_from_json, request_from_query
+from caesura.service.segmentations.status_response import preference_applied, status_response, submission_response
+from caesura.service.segmentations.submission import submit_segmentation
+from caesura.service.uploads.registration import register_upload
+from caesura.service.uploads.upload_body import receive_upload
+from caesura.worker.records.schema import SegmentationRecord
+from caesura.worker.retention.deletion import delete_segmentation
 
 router = APIRouter(prefix="/v1/segmentations", tags=["segmentations"])
 
 
 @router.post("", status_code=202, response_model=StatusDocument, responses=SUBMITTED, openapi_extra=SUBMISSION)
-async def create(request: Request, backend: Behind, owner: Owner) -> Response:
+async def create(request: Request, backend: BackendDependency, owner: Owner) -> Response:
     """Find the motions: of an animation named in JSON or in the query, or of the file that is the body itself.
 
     The same file and parameters again are the same segmentation, and no second job.
     """
-    if request.headers.get("content-type", "").partition(";")[0].strip().lower() == "application/json":
-        order = await json_order(request)
+    if is_json(request.headers):
+        order = await request_from_json(request)
     else:
-        order = query_order(request.query_params)
+        order = request_from_query(request.query_params)
     if order.animation:
         animation = await backend.animation(order.animation, owner)
         parameters = Parameters.parse(order.parameters)
     else:
         Parameters.parse(order.parameters)  # refused before a long upload
         await to_thread.run_sync(backend.jobs.queues.check_room)
-        async with received(request, backend.spool, backend.settings) as upload:
+        async with receive_upload(request, backend) as upload:
             order = order.with_fields(upload.fields)
             parameters = Parameters.parse(order.parameters)
-            animation, _ = await to_thread.run_sync(keep, backend, owner, upload.parts, order.name)
-    record = await to_thread.run_sync(submit, backend, animation, parameters, order.name)
-    return await outcome(backend, request, record)
+            animation, _ = await to_thread.run_sync(register_upload, backend, owner, upload.parts, order.name)
+    record = await to_thread.run_sync(submit_segmentation, backend, animation, parameters, order.name)
+    return await submission_response(backend, request, record)
 
 
 @router.get("", response_model=SegmentationPage)
 async def of_animation(
-    backend: Behind,
+    backend: BackendDependency,
     owner: Owner,
     animation: Annotated[str, Query(description="the animation's id")],
     limit: Limit = 20,
     cursor: Cursor = "",
 ) -> Response:
-    """The segmentations of one animation, newest first."""
+    """The segmentations of one animation, newest first, without their segments."""
     await backend.animation(animation, owner)
-    before = created_before(cursor)
-    known = await backend.records.segmentations(animation)
-    page = list(itertools.islice((r for r in known if before is None or r.created < before), limit))
+    known = backend.records.segmentations(animation, limit, decode_cursor(cursor))
+    page = [record.with_(segments=()) async for record in known]
+    entries = tuple(StatusDocument.of(record).model_copy(update={"segments": None}) for record in page)
     address = f"/v1/segmentations?animation={animation}&limit={limit}&cursor="
-    more = address + cursor_of(page[-1].created) if len(page) == limit else None
-    return answer(SegmentationPage(segmentations=tuple(map(StatusDocument.of, page)), next=more))
+    more = address + encode_cursor(page[-1].created) if len(page) == limit else None
+    return status_response(SegmentationPage(segmentations=entries, next=more))
 
 
 @router.get("/{identifier}", response_model=StatusDocument)
-async def status(identifier: str, request: Request, backend: Behind, owner: Owner) -> Response:
+async def status(identifier: str, request: Request, backend: BackendDependency, owner: Owner) -> Response:
     """How far it is; with `Prefer: wait=N`, as soon as it is over, at most N seconds from now."""
-    known, seconds = await backend.told(identifier, owner), wait_seconds(request)
-    if known.record.status != "queued" and (seconds is None or not known.record.live):
-        return text_answer(known.text, headers=preference_applied(request))
-    record = await backend.awaited(known.record, seconds)
-    return answer(StatusDocument.of(record, await backend.position(record)), 200, preference_applied(request))
+    record = await backend.wait_until_settled(
+        await backend.segmentation(identifier, owner), preferred_wait_seconds(request)
+    )
+    return status_response(StatusDocument.of(record, await backend.position(record)), 200, preference_applied(request))
 
 
 @router.get("/{identifier}/events", response_class=StreamingResponse, responses=EVENTS)
 async def events(
-    identifier: str, request: Request, backend: Behind, owner: Owner, last_event_id: Annotated[str, Header()] = ""
+    identifier: str,
+    request: Request,
+    backend: BackendDependency,
+    owner: Owner,
+    last_event_id: Annotated[str, Header()] = "",
 ) -> Response:
     """The same, live: an event at every change, until it is over, or the key that asked is revoked."""
     record = await backend.segmentation(identifier, owner)
     if not record.live and event_id(record) == last_event_id:
         return Response(status_code=204)  # tells an EventSource not to come back
-    who = who_asks(request)
+    who = stream_client(request)
     backend.seats.check(who)
-    stream = status_events(backend, identifier, last_event_id, partial(admitted, backend, request))
+    stream = status_events(backend, identifier, last_event_id, partial(is_still_admitted, backend, request))
     seat = backend.seats.taken(who)
     return StreamingResponse(
-        seated(seat, stream), headers={"Cache-Control": "no-store"}, media_type="text/event-stream"
+        counted_stream(seat, stream), headers={"Cache-Control": "no-store"}, media_type="text/event-stream"
     )
 
 
 @router.delete("/{identifier}", response_model=StatusDocument, responses={204: {"description": "Deleted."}})
-async def cancel_or_delete(identifier: str, backend: Behind, owner: Owner) -> Response:
+async def cancel_or_delete(identifier: str, backend: BackendDependency, owner: Owner) -> Response:
     """Cancel it while it is queued or running; delete it, with its result, once it is over."""
     record = await backend.segmentation(identifier, owner)
     cancelled: SegmentationRecord | None = None
     if record.live:
         cancelled = await to_thread.run_sync(backend.jobs.cancel, identifier)
     if cancelled is not None:
-        return answer(StatusDocument.of(cancelled))
-    await to_thread.run_sync(forget_segmentation, backend.jobs, backend.blobs, identifier)
+        return status_response(StatusDocument.of(cancelled))
+    await to_thread.run_sync(delete_segmentation, backend.jobs, backend.blobs, identifier)
     return Response(status_code=204)

@@ -3,12 +3,12 @@
 from fastapi import APIRouter, Request, Response
 from pydantic import BaseModel, Field
 
-from service import sessions
-from service.backend import Behind
-from service.credentials import digest_of
-from service.errors import Refusal
-from service.guard import Unknown
-from service.visitors import find_key
+from caesura.service.api_keys.credentials import digest_of
+from caesura.service.auth import sessions
+from caesura.service.auth.authentication import find_key
+from caesura.service.auth.middleware import UnknownCaller
+from caesura.service.backend import BackendDependency
+from caesura.service.problems.status_table import Refusal
 
 router = APIRouter(prefix="/v1/session", tags=["session"])
 
@@ -20,21 +20,21 @@ class SignIn(BaseModel):
 
 
 @router.post("", status_code=204)
-async def sign_in(request: Request, backend: Behind, given: SignIn) -> Response:
+async def sign_in(request: Request, backend: BackendDependency, given: SignIn) -> Response:
     """Give a key, get a cookie that stands for it until its time is up, or the key is revoked."""
     record = await find_key(backend, digest_of(given.key.strip()))
     if record is None:
-        raise Unknown("unknown-key", "This key opens nothing here: it is wrong, or it was revoked.")
+        raise UnknownCaller("unknown-key", "This key opens nothing here: it is wrong, or it was revoked.")
     if record.metrics:
         raise Refusal("not-allowed", "This key opens /metrics and nothing else. Sign in with one that sees takes.")
     response = Response(status_code=204)
-    await sessions.begin(backend.records.redis, record.digest, request, response)
+    await sessions.begin_session(backend.records.redis, record.digest, request, response)
     return response
 
 
 @router.delete("", status_code=204)
-async def sign_out(request: Request, backend: Behind) -> Response:
+async def sign_out(request: Request, backend: BackendDependency) -> Response:
     """The cookie stands for nothing any more."""
     response = Response(status_code=204)
-    await sessions.end(backend.records.redis, request, response)
+    await sessions.end_session(backend.records.redis, request, response)
     return response

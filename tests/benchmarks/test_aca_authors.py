@@ -6,9 +6,9 @@ from threadpoolctl import threadpool_limits
 
 from benchmarks.aca_authors import AUTHORS, METHODS, REDUCED_BY, TRIALS, row
 from benchmarks.joint_angles import JOINTS, joint_angles, true_motions
-from core.agreement import frame_accuracy
-from core.alignment.frame_kernel import frame_kernel
-from core.alignment.reduction import reduction
+from caesura.core.agreement import frame_accuracy
+from caesura.core.methods.alignment.frame_kernel import frame_kernel
+from caesura.core.methods.alignment.temporal_reduction import reduce_frames
 
 
 def test_features_are_half_the_rotation_vector_of_every_joint():
@@ -45,7 +45,7 @@ def test_the_authors_figures_come_out(shared, name):
     features = joint_angles((folder / "86_09.amc").read_text())
     truth = true_motions(folder / "mocap.txt", "86_09")
     with threadpool_limits(1):
-        blocks = reduction(features, REDUCED_BY, seed=0)
+        blocks = reduce_frames(features, REDUCED_BY, seed=0)
         labels = METHODS[name](frame_kernel(blocks.of(features)), 4, 0)
     mean, deviation = AUTHORS[name[0]][TRIALS.index("86_09")]
     assert frame_accuracy(labels, truth[blocks.bounds[1:] - 1]) == pytest.approx(

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from benchmarks.sequences import truth_of
-from core.analysis import Analysis
-from core.document import Source
+from caesura.core.analysis import Analysis
+from caesura.core.document import Source
 
 DOCUMENT = {
     "fps": 30,

@@ -3,7 +3,7 @@
 import sys
 
 from benchmarks.clip_sizes import main
-from tests.core.formats.clips.test_clip_sizes import swaying
+from tests.formats.clips.test_clip_sizes import swaying
 
 
 def test_hardly_more_is_new_than_gltf_asks_for(tmp_path, monkeypatch, capsys):

@@ -8,8 +8,8 @@ import pytest
 from benchmarks.cmu import Annotation, annotation, skinned
 from benchmarks.drawing import drawn
 from benchmarks.figure5 import STATED, TRIAL, Run, stated
-from core.document import Source
-from core.segmentation import Segmentation
+from caesura.core.document import Source
+from caesura.core.segmentation import Segmentation
 
 TRUTH = Annotation(("walk", "clap", "walk"), (40, 70, 100), ((40, 40), (70, 70), (100, 100)))
 

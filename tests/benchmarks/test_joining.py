@@ -5,9 +5,9 @@ import numpy as np
 from benchmarks.choreography import both_sides, choreography, mirrored
 from benchmarks.creatures import creature
 from benchmarks.joining import joined
-from core.parameters import Parameters
-from core.pipeline import analyse
-from samples.motions import Motion
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import analyse
+from caesura.samples.motions import Motion
 
 
 def test_a_creature_is_the_same_at_every_call():

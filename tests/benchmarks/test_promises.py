@@ -11,9 +11,9 @@ from benchmarks.doubt import row, share_in_least_fifth
 from benchmarks.edges import cases, outcome
 from benchmarks.peers import NotInstalled, peers
 from benchmarks.sequences import Known
-from core.analysis import Analysis, Features
-from core.document import Source
-from core.methods import METHODS
+from caesura.core.analysis import Analysis, Features
+from caesura.core.document import Source
+from caesura.core.methods.table import METHODS
 
 
 @pytest.mark.parametrize(

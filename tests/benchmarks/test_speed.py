@@ -9,7 +9,7 @@ from benchmarks.growth import Series, drawn
 from benchmarks.numpy_twin import twin
 from benchmarks.speed import Row, table
 from benchmarks.tube import Tube
-from core.keyframes import local_maxima
+from caesura.core.energy.key_frames import find_local_maxima
 
 FRAMES = 150
 
@@ -21,7 +21,7 @@ def test_the_twin_in_plain_numpy_has_the_same_curve() -> None:
     expected = twin(tube.vertices, tube.rest, tube.triangles, curve.window).energy
     found = curve.energy()
     np.testing.assert_allclose(found, expected, atol=1e-3)
-    np.testing.assert_array_equal(local_maxima(found), local_maxima(expected))
+    np.testing.assert_array_equal(find_local_maxima(found), find_local_maxima(expected))
     np.testing.assert_array_equal(Curve(curve.animation, memory_bytes=0).energy(), found)
 
 

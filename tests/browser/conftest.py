@@ -90,7 +90,7 @@ def smooth(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Our own skinned figure, as a file."""
     path = tmp_path_factory.mktemp("files") / "smooth.glb"
     # In a process of its own: here every array's shape is checked, which the making of a figure need not wait for.
-    code = "import sys; from samples.figures import figure; sys.stdout.buffer.write(figure('smooth').glb)"
+    code = "import sys; from caesura.samples.figures import figure; sys.stdout.buffer.write(figure('smooth').glb)"
     path.write_bytes(subprocess.run([sys.executable, "-c", code], check=True, capture_output=True).stdout)
     return path
 

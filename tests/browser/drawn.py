@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Bool, Int
 from playwright.sync_api import Page, expect
 
-from core.formats.gltf.writer import Channel, GlbWriter, Primitive
+from caesura.formats.gltf.writer import Channel, GlbWriter, Primitive
 from tests.animations import bar
 
 FRAMES, RATE = 90, 30.0

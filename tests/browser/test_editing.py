@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
-from core.formats.header import read_header
-from core.limits import Limits
+from caesura.core.limits import Limits
+from caesura.formats.header import read_header
 from tests.browser.journeys import cut_x, opened, saved, starts
 
 pytestmark = pytest.mark.timeout(240)

@@ -3,8 +3,8 @@
 import redis
 from playwright.sync_api import Browser, expect
 
-from service.commands.key_ring import KeyRing
-from service.credentials import new_key
+from caesura.service.api_keys.credentials import new_key
+from caesura.service.commands.key_ring import KeyRing
 from tests.service.conftest import with_its_own_redis
 
 

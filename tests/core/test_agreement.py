@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from core.agreement import (
+from caesura.core.agreement import (
     adjusted_rand_index,
     boundary_scores,
-    cuts_of,
+    cut_frames,
     frame_accuracy,
     rand_index,
     segment_f1,
@@ -84,7 +84,7 @@ def test_a_shattered_segment_is_hit_once():
 
 def test_cuts_are_first_frames():
     """aab|b|a: frames 2 and 4 begin segments."""
-    assert cuts_of(labels("aabba")).tolist() == [2, 4]
+    assert cut_frames(labels("aabba")).tolist() == [2, 4]
 
 
 def test_unequal_lengths_are_refused():

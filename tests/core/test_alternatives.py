@@ -1,8 +1,8 @@
 """What a slider shows that goes over K."""
 
-from core.alternatives import alternatives
-from core.parameters import Parameters
-from core.pipeline import analyse, cut
+from caesura.core.alternatives import cut_into_other_motion_counts
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import analyse, cut
 from tests.animations import performing_bar
 
 
@@ -11,7 +11,7 @@ def test_an_alternative_is_what_is_cut_when_that_number_is_asked_for():
     bar = performing_bar((0, 1, 2, 0), seconds=3.0, rings=8).animation
     found = cut(analyse(bar), Parameters())
     scored = [score.motions for score in found.scores]
-    made = list(alternatives(analyse(bar), Parameters(), scored, found.motions))
+    made = list(cut_into_other_motion_counts(analyse(bar), Parameters(), scored, found.motions))
     asked = [one.parameters["motions"] for one in made]
     assert sorted(asked) == scored
     assert asked[0] == found.motions

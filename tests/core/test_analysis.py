@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from core.analysis import Analysis, Features
-from core.document import Notice, Source
+from caesura.core.analysis import Analysis, Features
+from caesura.core.document import Notice, Source
 
 
 def test_an_analysis_comes_back_from_its_bytes():

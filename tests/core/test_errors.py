@@ -5,14 +5,21 @@ import pickle
 
 import pytest
 
-from core.errors import KINDS, CaesuraError, InvalidModel, LimitExceeded, ParameterError, from_problem
+from caesura.core.errors import (
+    ERROR_KINDS,
+    CaesuraError,
+    InvalidModel,
+    LimitExceeded,
+    ParameterError,
+    error_from_problem,
+)
 
 
-@pytest.mark.parametrize("kind", sorted(KINDS))
+@pytest.mark.parametrize("kind", sorted(ERROR_KINDS))
 def test_an_error_survives_being_told_as_a_problem(kind: str) -> None:
     """Through JSON and through pickle it is the same error of the same class."""
-    error = KINDS[kind]("some-code", "A sentence.", pointer="/accessors/3", frame=7, vertex=None)
-    for again in (from_problem(json.loads(json.dumps(error.problem()))), pickle.loads(pickle.dumps(error))):
+    error = ERROR_KINDS[kind]("some-code", "A sentence.", pointer="/accessors/3", frame=7, vertex=None)
+    for again in (error_from_problem(json.loads(json.dumps(error.problem()))), pickle.loads(pickle.dumps(error))):
         assert type(again) is type(error)
         assert (again.code, again.detail, again.where) == (error.code, error.detail, error.where)
 

@@ -5,8 +5,8 @@ import math
 
 import pytest
 
-from core.errors import LimitExceeded
-from core.limits import Limits
+from caesura.core.errors import LimitExceeded
+from caesura.core.limits import Limits
 
 
 @pytest.mark.parametrize("name", sorted(Limits.model_fields))

@@ -2,8 +2,8 @@
 
 import pytest
 
-from core.errors import ParameterError
-from core.parameters import Parameters
+from caesura.core.errors import ParameterError
+from caesura.core.parameters import Parameters
 
 
 def test_parameters_come_back_from_their_own_dump() -> None:

@@ -5,11 +5,11 @@ import itertools
 import numpy as np
 import pytest
 
-from core.analysis import Analysis
-from core.errors import InvalidModel, ParameterError
-from core.methods import METHODS
-from core.parameters import Parameters
-from core.pipeline import analyse, cut, segment
+from caesura.core.analysis import Analysis
+from caesura.core.errors import InvalidModel, ParameterError
+from caesura.core.methods.table import METHODS
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import analyse, cut, segment
 from tests import oracles
 from tests.animations import animation, bar, performing_bar, tumbling
 
@@ -269,7 +269,7 @@ def test_the_rest_shape_can_be_chosen(performance):
 
 def test_many_peaks_are_kept_as_patch_means(performance, analysed, monkeypatch):
     """Above the budget; key-frames are told apart all the same."""
-    monkeypatch.setattr("core.pipeline.peak_strain", small_budget)
+    monkeypatch.setattr("caesura.core.pipeline.peak_strain", small_budget)
     found = analyse(performance.animation, PAPER)
     assert found.peak_strain.shape[1] <= 256 < analysed.peak_strain.shape[1]
     assert 0 <= found.peak_strain.min() <= found.peak_strain.max() <= 1
@@ -277,9 +277,9 @@ def test_many_peaks_are_kept_as_patch_means(performance, analysed, monkeypatch):
 
 def small_budget(*arguments):
     """Strain at the peaks with room for nothing."""
-    from core.peak_strain import peak_strain
+    from caesura.core.block_pass.strain_at_peaks import measure_strain_at_peaks
 
-    return peak_strain(*arguments, most_bytes=0)
+    return measure_strain_at_peaks(*arguments, most_bytes=0)
 
 
 def test_an_analysis_survives_being_stored(analysed):
@@ -292,7 +292,7 @@ def test_features_of_long_takes_are_learnt_from_a_sample(monkeypatch):
     """Drawn beforehand where the descriptors do not fit the memory: the same features to rounding."""
     source = performing_bar([0, 1, 2], seconds=25.0, rings=6).animation
     held = analyse(source, PAPER)
-    monkeypatch.setattr("core.basis.HELD_BYTES", 0)
+    monkeypatch.setattr("caesura.core.block_pass.features.HELD_BYTES", 0)
     one, two = (analyse(source, PAPER, threads=n) for n in (1, 2))
     assert one.to_bytes() == two.to_bytes()
     for sampled, whole in zip(one.features, held.features, strict=True):

@@ -5,9 +5,9 @@ from itertools import pairwise
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.document import Interval, KeyFrame, Segment, SegmentationDocument, Source
-from core.errors import ParameterError
-from core.revision import Edit, checked, revised
+from caesura.core.document import Interval, KeyFrame, Segment, SegmentationDocument, Source
+from caesura.core.errors import ParameterError
+from caesura.core.revision import Edit, apply_revision, check_edits
 
 FRAMES = 60
 
@@ -32,7 +32,7 @@ COMPUTED = SegmentationDocument(
 def read(*bounds):
     """The result with segments of one motion after the other."""
     edits = [Edit(start=a, end=b, motion=n) for n, (a, b) in enumerate(pairwise(bounds))]
-    return revised(COMPUTED, 1, checked(edits, FRAMES))
+    return apply_revision(COMPUTED, 1, check_edits(edits, FRAMES))
 
 
 def repeats(*bounds):
@@ -73,7 +73,7 @@ def test_what_is_let_through_tiles_and_is_named_one_to_one(drawn):
         edits.append(Edit(start=at, end=at + length, motion=motion, name=name))
         at += length
     try:
-        found = checked(edits, at)
+        found = check_edits(edits, at)
     except ParameterError:
         return
     names = dict.fromkeys((edit.motion, edit.name) for edit in found)

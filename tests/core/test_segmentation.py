@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pytest
 
-from core.document import Source, motion_name
-from core.segmentation import Segmentation, in_order_of_appearance
+from caesura.core.document import Source, motion_name
+from caesura.core.segmentation import Segmentation, number_by_appearance
 
 
 @pytest.fixture
@@ -56,7 +56,7 @@ def test_the_document_is_json_with_null_where_the_energy_is_undefined(result):
 
 def test_labels_are_numbered_as_they_appear():
     """Whatever a method called its clusters."""
-    assert in_order_of_appearance(np.array([7, 7, -2, 7, 3])).tolist() == [0, 0, 1, 0, 2]
+    assert number_by_appearance(np.array([7, 7, -2, 7, 3])).tolist() == [0, 0, 1, 0, 2]
 
 
 def test_motions_that_nobody_named_are_called_by_letters():

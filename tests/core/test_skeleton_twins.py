@@ -5,10 +5,10 @@ import struct
 
 import pytest
 
-from core.parameters import Parameters
-from core.pipeline import segment
-from samples.figures import FIGURES, figure
-from tests.core.formats.opening import opened
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import segment
+from caesura.samples.figures import FIGURES, figure
+from tests.formats.opening import opened
 from tests.glb import chunks
 
 SECONDS = 0.2

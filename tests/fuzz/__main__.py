@@ -38,7 +38,8 @@ def main() -> int:
     board = Board(path)
     print(
         f"{board.tried:,} files in {took:,.0f} s, {board.tried / took:,.0f} a second; {board.read:,} were read, "
-        f"{board.tried - board.read:,} refused by name. {platform.platform()}, Python {platform.python_version()}."
+        f"{board.tried - board.read:,} refused by name. The slowest took {board.slowest:.2f} processor seconds, the "
+        f"process {board.largest / 1e6:,.0f} MB. {platform.platform()}, Python {platform.python_version()}."
     )
     if ended == 0 and not board.at_hand:
         print("No crash, no hang, no file over the memory.")

@@ -23,8 +23,26 @@ TEXT = [
     *b"0 -1 -3 1e400 1e39 nan inf 99999999999999999999 x { } ROOT JOINT End OFFSET CHANNELS MOTION Frames:".split(),
     *b"Frame Time: f v 1/1/1 element property list '|O' '<f8' '<u8' '>i2' '<c8' (3,) () True ((1,2),3)".split(),
     *(b"f 1 2 3 4", b"format binary_little_endian 1.0", b"(9, 5, 3)", b"(0, 0, 3)", b"(1000000000, 5, 3)"),
+    *b"usemtl g o vn vt l / // -1/2 1//0 uint8 float64 ascii end_header vertex face".split(),
+    *(
+        b"\nusemtl x\nf 1 2 3",
+        b"\ng x\nf -1 -2 -3",
+        b"f 1 2 3 " * 20,
+        b"property list uint uint a",
+        b"element x 1000000",
+    ),
 ]
 """Words of BVH, OBJ, PLY and of the headers of NumPy's arrays."""
+
+NAMES = (
+    "rest.npy", "fps.npy", "a/b.obj", "x.gltf", "x.bin", "../v", "9" * 400 + "a.obj", "9" * 20_000 + "a1.obj", "1.obj",
+    "1 " * 240 + ".ply", "frame_" + "1" * 20_000 + ".npy", "vertices" + "1" * 400 + "x.npy", "\u0661" * 40 + ".obj",
+    "__MACOSX/1.obj", "a" * 501, "x" * 20_000 + ".gltf", "%s%n\n.obj", "1" * 19 + ".obj", "0.OBJ",
+)  # fmt: skip
+"""Names of members: numbers without end, folders, and what is no name."""
+
+MANY = (2, 50, 5000)
+"""How often a word or a line is repeated; deflated, many lines are few bytes."""
 
 
 def mutated(data: bytes, draw: random.Random, largest: int) -> bytes:
@@ -86,11 +104,7 @@ def _zip(data: bytes, draw: random.Random) -> bytes:
         inner = _file(content, draw) if content[:1] != b"\x93" else draw.choice((worded, numbered))(content, draw)
         members[place] = (name, method, inner)
     elif action < 0.8:
-        members[place] = (
-            draw.choice(("rest.npy", "fps.npy", "a/b.obj", "x.gltf", "x.bin", "../v", name)),
-            method,
-            content,
-        )
+        members[place] = (draw.choice((*NAMES, name, name + "9" * 400)), method, content)
     elif action < 0.9:
         members.append(draw.choice(members))
     else:
@@ -130,15 +144,17 @@ def worded(data: bytes, draw: random.Random) -> bytes:
         place = draw.randrange(len(lines))
         words = lines[place].split(b" ")
         action = draw.random()
-        if action < 0.6:
+        if action < 0.55:
             words[draw.randrange(len(words))] = draw.choice(TEXT)
             lines[place] = b" ".join(words)
+        elif action < 0.6:
+            lines[place] = b" ".join(words[:1] + words[1:][:8] * draw.choice(MANY))
         elif action < 0.75:
             lines.insert(place, draw.choice(lines))
         elif action < 0.9 and len(lines) > 1:
             del lines[place]
         else:
-            lines[place : place + 1] = [lines[place]] * draw.choice((2, 50))
+            lines[place : place + 1] = [lines[place][:64]] * draw.choice(MANY)
     return b"\n".join(lines)
 
 

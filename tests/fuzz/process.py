@@ -14,15 +14,19 @@ import time
 from pathlib import Path
 from typing import Any
 
-COUNTS = struct.Struct("<QQI")
-"""Files tried, files read, and the length of the one that is being tried, whose bytes follow."""
+COUNTS = struct.Struct("<QQdQI")
+"""Files tried, files read, the most processor seconds of one, the most bytes of memory that the process had, and the
+length of the file that is being tried, whose bytes follow."""
 
 ROOM = 2**20
 FRESH = 0.3
 """Share of files that are made of a good one, and not of what a run has kept."""
 
-MEMORY = 512 * 2**20
+MEMORY = 600 * 10**6
 """Bytes that a file may make the process grow by."""
+
+HANG_SECONDS = 30.0
+"""Processor seconds after which the process is ended, in whatever loop it is."""
 
 
 class Board:
@@ -31,19 +35,25 @@ class Board:
     def __init__(self, path: Path) -> None:
         with path.open("r+b") as file:
             self._map = mmap.mmap(file.fileno(), ROOM)
-        self.tried, self.read, self._length = COUNTS.unpack_from(self._map)
+        self.tried, self.read, self.slowest, self.largest, self._length = COUNTS.unpack_from(self._map)
 
     def begin(self, data: bytes) -> None:
         """Keep what is tried now."""
         self._map[COUNTS.size : COUNTS.size + len(data)] = data
         self.tried += 1
         self._length = len(data)
-        COUNTS.pack_into(self._map, 0, self.tried, self.read, self._length)
+        self._write()
 
-    def end(self, *, read: bool) -> None:
+    def end(self, *, read: bool, seconds: float) -> None:
         """It was no fault."""
         self.read += read
-        COUNTS.pack_into(self._map, 0, self.tried, self.read, 0)
+        self.slowest = max(self.slowest, seconds)
+        self.largest = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+        self._length = 0
+        self._write()
+
+    def _write(self) -> None:
+        COUNTS.pack_into(self._map, 0, self.tried, self.read, self.slowest, self.largest, self._length)
 
     @property
     def at_hand(self) -> bytes:
@@ -58,14 +68,14 @@ def main(board: Board, corpus: Path, seconds: int, seed: int) -> None:
         _instrument()
     from tests.fuzz.mutations import mutated
     from tests.fuzz.seeds import LARGEST, seeds
-    from tests.fuzz.target import LONGEST_SECONDS, attempt
+    from tests.fuzz.target import attempt
 
     def one(data: bytes) -> None:
         board.begin(data)
-        signal.setitimer(signal.ITIMER_PROF, 1.5 * LONGEST_SECONDS)
-        read = attempt(data)
+        signal.setitimer(signal.ITIMER_PROF, HANG_SECONDS)
+        read, seconds = attempt(data)
         signal.setitimer(signal.ITIMER_PROF, 0)
-        board.end(read=read)
+        board.end(read=read, seconds=seconds)
 
     faulthandler.enable()
     signal.signal(signal.SIGPROF, signal.SIG_DFL)  # ends the process, in whatever loop it is
@@ -91,13 +101,13 @@ def _instrument() -> None:
     """Count the branches of the readers; compiled loops, loaded before, stay as they are."""
     import atheris
 
-    import core.formats.gltf.meshopt.attributes.kernels
-    import core.formats.gltf.meshopt.indices.kernels
-    import core.formats.gltf.posing.kernels
+    import caesura.formats.kernels.meshopt_attributes
+    import caesura.formats.kernels.meshopt_indices
+    import caesura.formats.kernels.posing
 
-    with atheris.instrument_imports(include=["core.formats"]):
-        import core.formats.header
-        import core.formats.read  # noqa: F401
+    with atheris.instrument_imports(include=["caesura.formats"]):
+        import caesura.formats.header
+        import caesura.formats.read  # noqa: F401
 
 
 def _bound_memory() -> None:

@@ -5,19 +5,33 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from core.formats.bvh.as_gltf import bvh_as_gltf
-from core.limits import Limits
-from tests.core.formats import test_hostile_gltf as hostile
-from tests.core.formats import test_hostile_npz as archives
-from tests.core.formats.test_bvh import ARM
-from tests.core.formats.test_draco import compressed
-from tests.core.formats.test_instances import instanced
-from tests.core.formats.test_npz import npz
-from tests.core.formats.test_pairing import mesh, skeleton
-from tests.core.formats.test_zip import separate, shapes, zipped
+from caesura.core.limits import Limits
+from caesura.formats.bundle.obj import read_obj
+from caesura.formats.bvh.gltf_conversion import convert_bvh_to_glb
+from caesura.worker.process.warm_up import example_gltf
+from tests.formats import test_hostile_gltf as hostile
+from tests.formats import test_hostile_npz as archives
+from tests.formats.bundle import test_polygon_shapes as polygons
+from tests.formats.gltf.test_draco import compressed
+from tests.formats.gltf.test_instances import instanced
+from tests.formats.test_bvh import ARM
+from tests.formats.test_mesh_and_motion import mesh, skeleton
+from tests.formats.test_npz import npz
+from tests.formats.test_zip import SHAPE, separate, shapes, zipped
+from tests.fuzz import bodies
+from tests.fuzz.mutations import NAMES
 from tests.fuzz.parts import joined
 from tests.glb import Glb, bending_strip, moving_square, square
-from worker.warming import moving_gltf
+
+OBJ = (
+    b"v 0 0 0\nv 1 0 0\nv 1 1 0 1\nv 0 1 0 .5 .5 .5\nvt 0 0\nvn 0 0 1\no a\ng b\nusemtl c\n"
+    b"f 1/1/1 2/1/1 3//1 -1\nl 1 2\n"
+)
+PLY = (
+    b"ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 4\nproperty float x\nproperty double y\n"
+    b"property int z\nelement face 2\nproperty list uchar int vertex_indices\nproperty uchar red\nelement edge 1\n"
+    b"property list int int ends\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 7\n3 0 2 1 7\n2 0 1\n"
+)
 
 LARGEST = 64 * 2**10
 """Bytes of a seed, and of what is made of it: faults are in structure, not in size."""
@@ -47,6 +61,11 @@ def _all() -> Iterator[bytes]:
             yield _mutated(base(), mutate)
     yield from (_mutated(moving_square(), mutate) for _, mutate, _ in hostile.ODD[1:])
     yield from (data for _, data, _ in [*hostile.CONTAINERS, *archives.FAULTS])
+    yield from bodies.seeds()
+    yield from (zipped({name: SHAPE, "a2.obj": SHAPE}) for name in NAMES)
+    for read, data, _ in polygons.BROKEN.values():
+        yield polygons.frames(data, "obj" if read is read_obj else "ply")
+    yield from (polygons.frames(data) for data in polygons.SLOW.values())
 
 
 def _good() -> Iterator[bytes]:
@@ -56,17 +75,19 @@ def _good() -> Iterator[bytes]:
     yield compressed().glb()
     yield instanced(TRANSLATION=([[0, 0, 0], [0, 5, 0]], "float32"), SCALE=([[1, 1, 1], [2, 2, 2]], "float32")).glb()
     yield _packed().glb()
-    yield moving_gltf()
+    yield example_gltf()
     yield npz()
     yield npz(deflate=True, frame_rate=25.0, rest=np.zeros((5, 3)))
     yield npz(vertices=np.asfortranarray(archives.FRAMES.astype(">f8")))
     yield npz(vertices=archives.FRAMES.astype("f2"), triangles=archives.TRIANGLES.astype("u1"))
     yield ARM.encode()
-    yield bvh_as_gltf(memoryview(ARM.encode()), Limits())
+    yield convert_bvh_to_glb(memoryview(ARM.encode()), Limits())
     yield zipped(separate())
     yield zipped(separate(), zipfile.ZIP_STORED)
     yield zipped({"export/arm.bvh": ARM.encode()})
     yield zipped(shapes("obj", 3))
+    yield zipped({f"a{i}.obj": OBJ.replace(b"0", b"%d" % i, 1) for i in range(2)})
+    yield zipped({f"a{i}.ply": PLY.replace(b"0 0 0", b"0 0 %d" % i) for i in range(2)})
     yield zipped(shapes("ply", 3), zipfile.ZIP_STORED)
 
 

@@ -1,14 +1,15 @@
-"""What the fuzzer does with a file: its header, its takes, its animation, and some frames of it."""
+"""What the fuzzer does with a file: reads its header, takes and animation, draws frames, takes JSON for a request."""
 
 import io
 import time
 import zlib
 
-from core.errors import CaesuraError
-from core.formats.header import read_header
-from core.formats.read import read_animation, takes
-from core.limits import Limits
-from core.parameters import Parameters
+from caesura.core.errors import CaesuraError
+from caesura.core.limits import Limits
+from caesura.core.parameters import Parameters
+from caesura.formats.header import read_header
+from caesura.formats.read import list_takes, read_animation
+from tests.fuzz.bodies import attempt_bodies
 from tests.fuzz.parts import parted
 
 LIMITS = Limits(
@@ -21,7 +22,7 @@ LIMITS = Limits(
 )
 """A sixteenth of what a service allows, so that a file at a limit takes a sixteenth of the time."""
 
-LONGEST_SECONDS = 10.0
+LONGEST_SECONDS = 2.0
 """Processor seconds for one file; more is a hang. Not the clock's: a busy machine is no hang of ours."""
 
 MOST_DRAWN = 2_000_000
@@ -43,15 +44,27 @@ class Hang(Exception):
     """A file took longer than any may."""
 
 
-def attempt(data: bytes) -> bool:
-    """Whether the upload `data` was read; it may be refused. Whatever else is raised is a fault of ours."""
-    began = time.process_time()
+def attempt(data: bytes) -> tuple[bool, float]:
+    """Whether the upload `data` was read, and in how many processor seconds; it may be refused.
+
+    Whatever else is raised is a fault of ours. What takes too long is tried once more, for the first time may be spent
+    on compiling loops.
+    """
+    for _ in range(2):
+        began = time.process_time()
+        read = _attempted(data)
+        if (seconds := time.process_time() - began) <= LONGEST_SECONDS:
+            return read, seconds
+    raise Hang(f"{seconds:.1f} processor seconds")
+
+
+def _attempted(data: bytes) -> bool:
     parts = parted(data)
     asked = Parameters.parse(dict(ASKED[zlib.crc32(data) % len(ASKED)]))
-    read = [_header(parts), _takes(parts), _frames(parts, asked)][-1]
-    if (seconds := time.process_time() - began) > LONGEST_SECONDS:
-        raise Hang(f"{seconds:.1f} processor seconds")
-    return read
+    if data.lstrip()[:1] in {b"{", b"["}:
+        for refused in attempt_bodies(data):
+            _told(refused)
+    return [_header(parts), _takes(parts), _frames(parts, asked)][-1]
 
 
 def _header(parts: dict[str, bytes]) -> None:
@@ -64,7 +77,7 @@ def _header(parts: dict[str, bytes]) -> None:
 
 def _takes(parts: dict[str, bytes]) -> None:
     try:
-        takes(parts, LIMITS)
+        list_takes(parts, LIMITS)
     except CaesuraError as refused:
         _told(refused)
 

@@ -5,13 +5,13 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from core.agreement import frame_accuracy
-from core.parameters import Parameters
-from core.pipeline import segment
-from samples.figures import FIGURES, figure
-from samples.session import PLAYED, long_session, schedule
-from samples.take import RATE
-from tests.core.formats.opening import opened
+from caesura.core.agreement import frame_accuracy
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import segment
+from caesura.samples.figures import FIGURES, figure
+from caesura.samples.session import PLAYED, long_session, schedule
+from caesura.samples.take import RATE
+from tests.formats.opening import opened
 
 QUICK = 6_000  # frames of a session short enough for a test
 

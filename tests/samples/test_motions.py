@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from samples.motions import Motion
-from samples.repertoire import MOTIONS
-from samples.skeleton import AXES, HUMAN
+from caesura.samples.motions import Motion
+from caesura.samples.repertoire import MOTIONS
+from caesura.samples.skeleton import AXES, HUMAN
 
 RATE = 30.0
 NOD = Motion("nod", 1.0, {"head flex": ((0, 0), (0.5, 20))})

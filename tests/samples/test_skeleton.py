@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from samples.skeleton import AXES, HUMAN, arms_out, quaternions, straight
+from caesura.samples.skeleton import AXES, HUMAN, arms_out, quaternions, straight
 
 
 def bent(joint, axis, degrees):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from samples.surface import Limb, skin
+from caesura.samples.surface import Limb, skin
 
 BALL = Limb(0, np.zeros(3), np.zeros(3), 0.5, 0.5)
 CONE = Limb(0, np.zeros(3), np.array([1.0, 0.0, 0.0]), 0.2, 0.1)

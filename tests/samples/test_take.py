@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from samples.ground import SOLE, feet_to_ground
-from samples.repertoire import MOTIONS
-from samples.skeleton import HUMAN
-from samples.take import FADE, RATE, Part, perform
+from caesura.samples.ground import SOLE, feet_to_ground
+from caesura.samples.repertoire import MOTIONS
+from caesura.samples.skeleton import HUMAN
+from caesura.samples.take import FADE, RATE, Part, perform
 
 
 def take(*motions, seed=3):

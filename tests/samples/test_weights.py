@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from samples.surface import Limb, skin
-from samples.weights import heat_weights, strongest
+from caesura.samples.surface import Limb, skin
+from caesura.samples.weights import heat_weights, strongest
 
 
 @pytest.fixture(scope="module")

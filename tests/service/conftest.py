@@ -7,7 +7,7 @@ import socket
 import subprocess
 import sys
 import time
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,10 +15,10 @@ import httpx
 import numpy as np
 import pytest
 
+from caesura.worker.embedded_redis.server import EmbeddedRedis
 from tests.animations import performing_bar
-from worker.redis_server import EmbeddedRedis
 
-START_SECONDS = 60
+START_SECONDS = 200  # ready is a warm worker, and a fresh checkout compiles the kernels first
 UPLOAD_LIMIT = 8_000_000
 
 
@@ -70,7 +70,7 @@ def _free_port():
 def serve(checkout, data, redis_url, workers, ready=True, **settings):
     """A web process, with workers beside it or without, until the block ends; `settings` as CAESURA_… variables.
 
-    Not `ready`: it can never be, so it is waited for until it answers at all.
+    Not `ready`, or without workers: it can never be, so it is waited for until it answers at all.
     """
     port = _free_port()
     env = {
@@ -83,14 +83,13 @@ def serve(checkout, data, redis_url, workers, ready=True, **settings):
         **{f"CAESURA_{name.upper()}": str(value) for name, value in settings.items()},
     }
     url = f"http://127.0.0.1:{port}"
-    with _process(sys.executable, "-m", "service", env=env) as web, httpx.Client(base_url=url, timeout=60) as http:
-        _until(web, http, "/readyz" if ready else "/healthz")
-        service = Service(url, http, data, redis_url, web.pid)
-        if not workers:
-            yield service
-            return
-        with _process(sys.executable, "-m", "worker", env=env):
-            yield service
+    with ExitStack() as stack:
+        web = stack.enter_context(_process(sys.executable, "-m", "caesura.service", env=env))
+        http = stack.enter_context(httpx.Client(base_url=url, timeout=60))
+        if workers:
+            stack.enter_context(_process(sys.executable, "-m", "caesura.worker", env=env))
+        _until(web, http, "/readyz" if ready and workers else "/healthz")
+        yield Service(url, http, data, redis_url, web.pid)
 
 
 def _until(web, http, path):
@@ -101,7 +100,8 @@ def _until(web, http, path):
             if http.get(path).status_code == 200:
                 return
         except httpx.TransportError:
-            time.sleep(0.05)
+            pass
+        time.sleep(0.05)
     raise TimeoutError("the web process did not answer")
 
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from core.limits import Limits
-from core.parameters import TOLD_MOTIONS
+from caesura.core.limits import Limits
+from caesura.core.methods.table import METHODS
 from tests.service.conftest import UPLOAD_LIMIT
 
 
@@ -17,7 +17,7 @@ def test_each_method_comes_with_the_schema_of_its_parameters(idle):
         assert method["description"]
         assert method["parameters"]["properties"]["method"]["const"] == method["name"]
         needed = "motions" in method["parameters"].get("required", ())
-        assert needed == (method["name"] in TOLD_MOTIONS)
+        assert needed == METHODS[method["name"]].needs_motions
         assert needed or method["parameters"]["properties"]["motions"]["default"] == "auto"
 
 
@@ -38,10 +38,10 @@ def test_limits_are_those_of_this_installation(idle):
     assert idle.http.get("/v1/limits").json() == {**Limits().model_dump(), "max_upload_bytes": UPLOAD_LIMIT}
 
 
-def test_it_is_alive_and_ready(idle):
+def test_it_is_alive_and_ready(service):
     """Both probes answer."""
-    assert idle.http.get("/healthz").json() == {"status": "ok"}
-    assert idle.http.get("/readyz").json() == {"status": "ready"}
+    assert service.http.get("/healthz").json() == {"status": "ok"}
+    assert service.http.get("/readyz").json() == {"status": "ready"}
 
 
 def test_metrics_are_in_prometheus_form(idle):

@@ -2,8 +2,9 @@
 
 import pytest
 
-from worker.connection import connect
-from worker.records import Records
+from caesura.worker.records import Records
+from caesura.worker.records.connection import connect
+from tests.glb import moving_square
 
 
 @pytest.fixture(scope="module")
@@ -40,6 +41,21 @@ def test_animations_are_listed_by_pages_newest_first(service, take):
         listed += [one["id"] for one in page["animations"]]
     assert set(ids) <= set(listed)
     assert len(set(listed)) == len(listed)
+
+
+def test_a_list_has_no_takes(service):
+    """A file may have thousands, each with a long name: a list says how many, the animation's own address which."""
+    model = moving_square()
+    (one,) = model.json["animations"]
+    model.json["animations"] = [{**one, "name": f"take {number} ".ljust(100, "x")} for number in range(3000)]
+    made = service.http.post("/v1/animations", content=model.glb()).json()
+    answer = service.http.get("/v1/animations", params={"limit": 1})
+    assert len(answer.content) < 1000
+    assert answer.json()["animations"] == [{name: value for name, value in made.items() if name != "takes"}]
+    assert (made["take_count"], made["duration_seconds"]) == (3000, pytest.approx(1))
+    own = service.http.get(f"/v1/animations/{made['id']}").json()
+    assert own == made
+    assert len(own["takes"]) == 3000
 
 
 @pytest.mark.parametrize("cursor", ["!", "bmFu", "aW5m"], ids=["no base64", "nan", "inf"])
@@ -107,3 +123,20 @@ def test_an_upload_that_is_no_longer_kept_is_gone_until_it_comes_again(idle, tak
     assert idle.http.post("/v1/segmentations", json={"animation": identifier}).status_code == 410
     assert idle.http.post("/v1/animations", content=content).json()["id"] == identifier
     assert idle.http.get(f"/v1/animations/{identifier}/file").content == content
+
+
+def test_a_file_that_the_store_has_lost_is_stored_again(service, take):
+    """410 until the same bytes come again; a file that was made of a result is made again."""
+    content = take(207)
+    status = service.http.post("/v1/segmentations", content=content, headers={"Prefer": "wait=30"}).json()
+    file, made = f"/v1/animations/{status['animation']}/file", f"{status['links']['self']}/result.npz"
+    assert service.http.get(made, headers={"Prefer": "wait=30"}).status_code == 200
+    records = Records(connect(service.redis_url))
+    lost = [records.animations.one(status["animation"]).parts[0].key, records.exports.one(status["id"], "npz").key]
+    for key in lost:
+        (service.data / "blobs" / key).unlink()
+    assert service.http.get(file).status_code == 410
+    assert service.http.get(made).status_code in {200, 202}
+    assert service.http.get(made, headers={"Prefer": "wait=30"}).status_code == 200
+    assert service.http.post("/v1/animations", content=content).status_code == 201
+    assert service.http.get(file).content == content

@@ -8,12 +8,12 @@ import zipfile
 import numpy as np
 import pytest
 
+from caesura.worker.queue.jobs import Jobs
+from caesura.worker.records import redis_keys
+from caesura.worker.records.connection import connect
+from caesura.worker.retention.retention import sweep
+from caesura.worker.store.blobs import Blobs
 from tests.glb import bending_strip
-from worker import keys
-from worker.blobs import Blobs
-from worker.connection import connect
-from worker.jobs import Jobs
-from worker.retention import sweep
 
 
 def moves(seed):
@@ -104,7 +104,7 @@ def test_clips_go_with_the_upload(service):
     assert fetched(service, here).content.startswith(b"glTF")
     jobs, blobs = Jobs(connect(service.redis_url)), Blobs.open(str(service.data / "blobs"), service.data / "scratch")
     copy = jobs.records.exports.one(made["id"], "clips").key
-    jobs.redis.zadd(keys.USED_KEY, {made["animation"]: 0})
+    jobs.redis.zadd(redis_keys.LAST_USED_KEY, {made["animation"]: 0})
     sweep(jobs, blobs, 1e9, 1e9)
     answer = service.http.get(here)
     assert (answer.status_code, answer.json()["code"]) == (410, "gone")

@@ -8,8 +8,8 @@ import subprocess
 import numpy as np
 import pytest
 
-from service.app import create_app
-from service.settings import ServiceSettings
+from caesura.service.app import create_app
+from caesura.service.settings import ServiceSettings
 from tests.conftest import unavailable
 from tests.glb import Glb, bending_strip
 

@@ -5,8 +5,8 @@ from collections import Counter
 from itertools import pairwise
 from xml.etree import ElementTree
 
-from core.document import Interval, KeyFrame, Segment
-from service.elan import segments_eaf
+from caesura.core.document import Interval, KeyFrame, Segment
+from caesura.service.results.elan import segments_eaf
 from tests.service.test_exports import document
 
 NAME = r"[A-Za-z_][\w.-]*"  # xsd:ID and xsd:IDREF

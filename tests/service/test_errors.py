@@ -7,16 +7,16 @@ import pytest
 import redis
 from fastapi import FastAPI
 
-from core import errors as core_errors
-from service import failures
-from service.errors import STATUS, Refusal, status_of
-from worker.blobs import BlobMissing
+from caesura.core import errors as core_errors
+from caesura.service.problems import exception_handlers
+from caesura.service.problems.status_table import STATUS_OF_CODE, Refusal, status_of
+from caesura.worker.store.blobs import BlobMissing
 
 
 def answered(failure):
     """What a client sees where a route raises `failure`."""
     app = FastAPI()
-    failures.install(app)
+    exception_handlers.install_handlers(app)
 
     @app.get("/")
     async def route():
@@ -32,7 +32,7 @@ def answered(failure):
 
 def test_every_kind_of_input_error_has_a_status_of_its_own():
     """No refusal of a file or a parameter is ever a 500."""
-    for kind, error in core_errors.KINDS.items():
+    for kind, error in core_errors.ERROR_KINDS.items():
         if kind != "error":
             assert 400 <= status_of(error("some-code", "Some sentence.").problem()) < 500
 
@@ -53,7 +53,7 @@ def test_what_is_in_no_table_is_ours():
     """500, so that nobody is blamed for what we do not know."""
     assert status_of({"kind": "unheard-of", "code": "unheard-of"}) == 500
     client = {400, 401, 403, 404, 405, 406, 409, 410, 412, 413, 415, 416, 422, 428, 429}
-    assert set(STATUS.values()) <= client | {500, 503, 507}
+    assert set(STATUS_OF_CODE.values()) <= client | {500, 503, 507}
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,7 @@
 """Text forms: times as players and spreadsheets read them, names that cannot be taken for anything else."""
 
-from core.document import Segment, SegmentationDocument, Source
-from service.exports import segments_csv, segments_vtt
+from caesura.core.document import Segment, SegmentationDocument, Source
+from caesura.service.results.text_formats import segments_csv, segments_vtt
 
 
 def document(name, start=0.0):

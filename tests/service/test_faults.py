@@ -12,8 +12,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
+from caesura.worker.embedded_redis.server import EmbeddedRedis
 from tests.service.conftest import serve
-from worker.redis_server import EmbeddedRedis
 
 
 @pytest.fixture

@@ -1,6 +1,6 @@
 """The hostile files of the readers' own tests, as uploads to the running service: refused by name, and nothing falls.
 
-The tables are those of tests/core/formats; here only what HTTP and the queue add is asked: the status of each code, a
+The tables are those of tests/formats; here only what HTTP and the queue add is asked: the status of each code, a
 problem document without a word of ours in it, an end within seconds, and a service that answers a good file after all.
 """
 
@@ -9,9 +9,9 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from core.limits import Limits
-from tests.core.formats.test_draco import HOSTILE as DRACO
-from tests.core.formats.test_hostile_gltf import (
+from caesura.core.limits import Limits
+from tests.formats.gltf.test_draco import HOSTILE as DRACO
+from tests.formats.test_hostile_gltf import (
     ACCESSORS,
     ANIMATIONS,
     CONTAINERS,
@@ -23,9 +23,9 @@ from tests.core.formats.test_hostile_gltf import (
     STRUCTURE,
     UNFOLDING,
 )
-from tests.core.formats.test_hostile_npz import FAULTS
-from tests.core.formats.test_zip import HOSTILE as ZIPS
-from tests.core.formats.test_zip import zipped
+from tests.formats.test_hostile_npz import FAULTS
+from tests.formats.test_zip import HOSTILE as ZIPS
+from tests.formats.test_zip import zipped
 from tests.glb import Glb, bending_strip, moving_square
 
 LONGEST_SECONDS = 10

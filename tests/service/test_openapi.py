@@ -2,11 +2,11 @@
 
 import pytest
 
-from core.document import SegmentationDocument
-from service.app import create_app
-from service.documents import AnimationDocument, StatusDocument
-from service.openapi import Problem
-from service.settings import ServiceSettings
+from caesura.core.document import SegmentationDocument
+from caesura.service.api_description.openapi import Problem
+from caesura.service.app import create_app
+from caesura.service.documents import AnimationDocument, StatusDocument
+from caesura.service.settings import ServiceSettings
 
 MODELS = {"AnimationDocument": AnimationDocument, "StatusDocument": StatusDocument}
 MODELS |= {"Problem": Problem, "SegmentationDocument": SegmentationDocument}
@@ -81,7 +81,7 @@ def test_examples_are_true_to_their_schema(document, name):
 
 def test_every_parameter_of_the_method_is_documented(document):
     """In the query of the one-curl call, with its unit and its default."""
-    from core.parameters import Parameters
+    from caesura.core.parameters import Parameters
 
     listed = {p["name"]: p for p in document["paths"]["/v1/segmentations"]["post"]["parameters"]}
     for name, field in Parameters.model_fields.items():

@@ -3,8 +3,8 @@
 import pytest
 from starlette.datastructures import Headers
 
-from service.errors import Refusal
-from service.origins import Origins
+from caesura.service.auth.origins import OriginPolicy
+from caesura.service.problems.status_table import Refusal
 
 
 def code(check):
@@ -38,7 +38,7 @@ def code(check):
 )
 def test_a_page_is_ours_by_its_host_and_port_or_by_a_public_name(origin, host, ours):
     """Whatever stands in the header, it is one or the other."""
-    origins = Origins("public.example")
+    origins = OriginPolicy("public.example")
     headers = Headers({"Origin": origin, "Host": host})
     assert code(lambda: origins.check_origin(headers, following=True)) == ("" if ours else "foreign-origin")
 
@@ -60,4 +60,4 @@ def test_a_page_is_ours_by_its_host_and_port_or_by_a_public_name(origin, host, o
 def test_a_name_that_is_not_ours_may_lead_anywhere(host, ours):
     """Numbers cannot be made to lead here by somebody else; names can."""
     headers = Headers({"Host": host})
-    assert code(lambda: Origins("public.example").check_host(headers)) == ("" if ours else "foreign-host")
+    assert code(lambda: OriginPolicy("public.example").check_host(headers)) == ("" if ours else "foreign-host")

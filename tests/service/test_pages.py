@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from service.security import page_policy
+from caesura.service.http.security_headers import page_policy
 
 
 @pytest.mark.parametrize("path", ["/healthz", "/v1/limits", "/nothing", "/openapi.json"])

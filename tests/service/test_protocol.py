@@ -1,15 +1,19 @@
 """A client without a key that never ends what it says, or never says it, costs neither memory nor a connection."""
 
+import asyncio
 import contextlib
 import json
 import socket
 import threading
+import time
 
 import httpx
+import numpy as np
 import pytest
 import uvicorn
 
-from service.protocol import MOST_HEAD_BYTES, Protocol
+from caesura.service.http.protocol import MOST_HEAD_BYTES, Protocol
+from tests.service.conftest import npz
 
 WHOLE = b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n"
 CHUNKED = b"POST /v1/animations HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n1\r\n{\r\n"
@@ -67,17 +71,32 @@ def test_many_and_long_headers_are_read_up_to_there(idle):
     assert json.loads(body)["code"] == "head-too-large"
 
 
+DROPPED = threading.Event()
+
+
+async def wait_for_disconnect(receive):
+    while (await receive())["type"] != "http.disconnect":
+        pass
+
+
 class Hurried(Protocol):
     """The same in less time."""
 
-    head_seconds, body_seconds, look_seconds = 0.3, 0.3, 0.1
+    head_seconds, body_seconds, write_seconds, look_seconds = 0.3, 0.3, 0.3, 0.1
 
 
 @pytest.fixture(scope="module")
 def hurried():
-    """A server that reads a body and says how long it was."""
+    """A server that reads a body and says how long it was; at /endless its answer has no end."""
 
     async def app(scope, receive, send):
+        if scope.get("path") == "/endless":
+            await send({"type": "http.response.start", "status": 200, "headers": []})
+            gone = asyncio.ensure_future(wait_for_disconnect(receive))
+            while not gone.done():
+                await send({"type": "http.response.body", "body": bytes(1 << 17), "more_body": True})
+                await asyncio.sleep(0)
+            DROPPED.set()
         size, more = 0, scope["type"] == "http"
         while more:
             message = await receive()
@@ -100,6 +119,31 @@ def test_a_client_that_falls_silent_is_left(hurried, said):
     with connected(hurried) as client:
         client.sendall(said)
         assert heard(client) == b""
+
+
+@pytest.mark.skipif(not hasattr(socket, "TCP_USER_TIMEOUT"), reason="only Linux drops such a client")
+def test_a_client_that_takes_nothing_of_its_answer_is_dropped(hurried):
+    """The server ends the connection, and so the answer."""
+    with connected(hurried) as client:
+        client.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        client.sendall(b"GET /endless HTTP/1.1\r\nHost: x\r\n\r\n")
+        assert DROPPED.wait(10)
+
+
+def test_answers_that_nobody_reads_take_little_memory(idle):
+    """Sixty downloads of 7 MB each, which stand still."""
+    content = npz(vertices=np.zeros((60, 10_000, 3), np.float32), triangles=[[0, 1, 2]])
+    animation = idle.http.post("/v1/animations", content=content).json()["id"]
+    before = idle.status("VmRSS")
+    with contextlib.ExitStack() as stack:
+        for _ in range(60):
+            client = stack.enter_context(connected(idle.url))
+            client.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+            client.sendall(f"GET /v1/animations/{animation}/file HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
+        for _ in range(4):
+            time.sleep(0.5)
+            assert idle.http.get("/healthz").elapsed.total_seconds() < 1
+        assert idle.status("VmRSS") - before < 60_000_000
 
 
 def test_a_slow_body_that_goes_on_is_waited_for(hurried):

@@ -2,8 +2,8 @@
 
 import pytest
 
-from service.errors import Refusal
-from service.ranges import attachment, requested
+from caesura.service.problems.status_table import Refusal
+from caesura.service.results.byte_ranges import content_disposition, parse_range
 
 
 @pytest.mark.parametrize(
@@ -25,16 +25,30 @@ from service.ranges import attachment, requested
 )
 def test_a_range_is_read(header, wanted):
     """Bytes [start, end) of a hundred, or None for all of them."""
-    assert requested(header, 100) == wanted
+    assert parse_range(header, 100) == wanted
 
 
 @pytest.mark.parametrize("header", ["bytes=100-", "bytes=5-4", "bytes=-0"])
 def test_a_range_that_holds_nothing_is_refused(header):
     """It would be an empty answer that looks like success."""
     with pytest.raises(Refusal, match="range-not-satisfiable"):
-        requested(header, 100)
+        parse_range(header, 100)
 
 
 def test_a_download_has_a_name_for_every_client():
-    """In letters that end no header and lead into no folder, for those that read nothing else; and as it is."""
-    assert attachment('été/".glb') == "attachment; filename=\"_t___.glb\"; filename*=UTF-8''%C3%A9t%C3%A9/%22.glb"
+    """In letters that end no header, for those that read nothing else; and as it is."""
+    assert content_disposition('été".glb') == "attachment; filename=\"_t__.glb\"; filename*=UTF-8''%C3%A9t%C3%A9%22.glb"
+
+
+@pytest.mark.parametrize(
+    ("name", "saved"),
+    [
+        ("../../.bashrc", "bashrc"),
+        ("C:\\x\\..\\take.glb", "take.glb"),
+        ("blg.\u202eexe", "blg.exe"),
+        ("a/..", "download"),
+    ],
+)
+def test_the_name_of_a_download_leads_into_no_folder_and_is_read_from_left_to_right(name, saved):
+    """Whatever an upload was called."""
+    assert content_disposition(name) == f"attachment; filename=\"{saved}\"; filename*=UTF-8''{saved}"

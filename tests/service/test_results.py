@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from core.document import SegmentationDocument
+from caesura.core.document import SegmentationDocument
 
 
 @pytest.fixture(scope="module")

@@ -10,14 +10,14 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
+from caesura.worker.queue.jobs import Jobs
+from caesura.worker.records import redis_keys
+from caesura.worker.records.connection import connect
+from caesura.worker.records.revisions import MOST_REVISIONS
+from caesura.worker.result_files import MOST_EXPORTS
+from caesura.worker.retention.retention import sweep
+from caesura.worker.store.blobs import Blobs
 from tests.glb import bending_strip
-from worker import keys
-from worker.blobs import Blobs
-from worker.connection import connect
-from worker.exports import MOST_EXPORTS
-from worker.jobs import Jobs
-from worker.retention import sweep
-from worker.revisions import MOST_REVISIONS
 
 FRAMES = 240
 
@@ -225,7 +225,11 @@ def test_what_is_not_finished_cannot_be_edited(idle, take):
 def kept_in_redis(service, here):
     redis = connect(service.redis_url)
     identifier = here.rpartition("/")[2]
-    return [name for name in (keys.revisions_key(identifier), keys.revised_key(identifier)) if redis.exists(name)]
+    return [
+        name
+        for name in (redis_keys.revisions_key(identifier), redis_keys.revised_key(identifier))
+        if redis.exists(name)
+    ]
 
 
 def test_revisions_go_with_their_result(service, take):
@@ -241,7 +245,7 @@ def test_revisions_go_with_their_result(service, take):
     jobs, blobs = Jobs(connect(service.redis_url)), Blobs.open(str(service.data / "blobs"), service.data / "scratch")
     identifier = here.rpartition("/")[2]
     jobs.records.segmentations.change(identifier, lambda record: record)
-    key = keys.segmentation_key(identifier)
+    key = redis_keys.segmentation_key(identifier)
     record = json.loads(jobs.redis.get(key))
     jobs.redis.set(key, json.dumps({**record, "updated": 0}))
     sweep(jobs, blobs, 1e9, 1e9)

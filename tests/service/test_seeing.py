@@ -8,10 +8,10 @@ import time
 import pytest
 from prometheus_client.parser import text_string_to_metric_families
 
-from service.headroom import FULL
+from caesura.service.uploads.capacity import FULL_SHARE
+from caesura.worker import logs
+from caesura.worker.records.connection import connect
 from tests.service.conftest import serve
-from worker import logs
-from worker.connection import connect
 
 
 def scraped(service):
@@ -100,7 +100,7 @@ def test_lines_for_machines_are_json_and_lines_for_people_are_short():
     """Both say what they are about; a traceback stays in its line of JSON."""
     record = logging.LogRecord("here", logging.INFO, "file", 1, "it is %s", ("so",), None)
     record.told = {"status": 200}
-    with logs.about(request="7", segmentation=""):
+    with logs.log_context(request="7", segmentation=""):
         told = json.loads(logs.JsonLines().format(record))
         assert logs.TextLines("%(levelname)s %(message)s").format(record) == "INFO it is so request=7 status=200"
         assert logs.request_id() == "7"
@@ -116,6 +116,28 @@ def test_lines_for_machines_are_json_and_lines_for_people_are_short():
     line = logs.JsonLines().format(record)
     assert "\n" not in line
     assert "twice" in json.loads(line)["traceback"]
+
+
+def test_no_value_forges_a_line_for_people():
+    """Neither a value, nor a message, nor an exception's text starts a line, ends a value or reaches the terminal."""
+    forged = "/a\n2026-01-01 INFO service.requests: request\x1b[2J status=200"
+    record = logging.LogRecord("here", logging.INFO, "file", 1, "asked for %s", (forged,), None)
+    record.told = {"path": forged, "empty": ""}
+    record.exc_info = (ValueError, ValueError(forged), None)
+    first, *rest = logs.TextLines("%(levelname)s %(message)s").format(record).split("\n")
+    assert first == f"INFO asked for /a path={forged!r} empty="
+    assert len(rest) == 3
+    assert all(line.startswith("    ") for line in rest)
+    assert not any("\x1b" in line for line in rest)
+
+
+def test_a_path_forges_no_line(checkout, idle, tmp_path, capfd):
+    """A newline and an escape character that are sent within a path are shown as what they are."""
+    with serve(checkout, tmp_path, idle.redis_url, workers=False) as other:
+        other.http.get("/nothing%0A2026-01-01%20INFO%20forged%1B%5B2J")
+    lines = capfd.readouterr().err.splitlines()
+    assert any("path='/nothing\\n2026-01-01 INFO forged\\x1b[2J' status=404" in line for line in lines)
+    assert not any(line.startswith("2026-01-01") or "\x1b" in line for line in lines)
 
 
 def test_no_secret_is_logged(checkout, idle, tmp_path, capfd):
@@ -137,15 +159,15 @@ def test_work_is_refused_before_redis_is_full(checkout, idle, take, tmp_path):
     with serve(checkout, tmp_path, idle.redis_url, workers=False) as other:
         kept = other.http.post("/v1/segmentations", content=take(803)).json()["id"]
         used = int(client.info("memory")["used_memory"])
-        client.config_set("maxmemory", int(used / (FULL + 0.1)))
+        client.config_set("maxmemory", int(used / (FULL_SHARE + 0.1)))
         try:
             time.sleep(1.1)  # what was looked at is believed for a second
             refused = other.http.post("/v1/segmentations", content=take(804))
             assert (refused.status_code, refused.json()["code"]) == (503, "not-ready")
             assert int(refused.headers["Retry-After"]) >= 1
-            assert other.http.get("/readyz").status_code == 503
+            assert "memory" in other.http.get("/readyz").json()["detail"]
             assert other.http.get(f"/v1/segmentations/{kept}").json()["status"] == "queued"
             assert not other.spooled()
         finally:
             client.config_set("maxmemory", 0)
-        assert other.http.get("/readyz").status_code == 200
+        assert "memory" not in other.http.get("/readyz").json()["detail"]

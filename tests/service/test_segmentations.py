@@ -10,7 +10,7 @@ from itertools import pairwise
 import httpx
 import pytest
 
-from service.seats import MOST_STREAMS
+from caesura.service.http.stream_limit import MOST_STREAMS
 from tests.service.conftest import npz
 
 PREFER = {"Prefer": "wait=30"}
@@ -60,6 +60,7 @@ def test_other_parameters_are_another_segmentation_of_the_same_animation(service
     assert two["animation"] == three["animation"]
     listed = service.http.get("/v1/segmentations", params={"animation": two["animation"]}).json()["segmentations"]
     assert [one["id"] for one in listed] == [three["id"], two["id"]]
+    assert [one["segments"] for one in listed] == [None, None]  # a long take has thousands
 
 
 def test_without_a_wait_the_answer_comes_at_once(idle, take):
@@ -143,7 +144,7 @@ def test_wrong_parameters_are_refused_before_the_upload(idle, query, code, named
         (b"{}", 422, "missing-parameter"),
         (b'{"animation": 5}', 422, "invalid-parameter"),
         (b'{"animation": "x", "motoins": 3}', 404, "not-found"),
-        (b" " * 100_000, 400, "json-too-long"),
+        (b" " * 300_000, 400, "json-too-long"),
     ],
 )
 def test_wrong_json_is_refused(idle, body, status, code):

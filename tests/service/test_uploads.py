@@ -158,6 +158,7 @@ def _until(condition, seconds=10):
         (b'--between\r\nContent-Disposition: form-data; name="name"\r\n\r\nx\r\n--between--\r\n', "no-file"),
         (b'--between\r\nContent-Disposition: form-data; name="f"\r\n\r\n' + b"x" * 5000, "field-too-long"),
         (b'--between\r\nContent-Disposition: form-data; name="f"; filename="a"\r\n\r\nx\r\n' * 65, "too-many-parts"),
+        (b'--between\r\nContent-Disposition: form-data; name="f"\r\n\r\nx\r\n' * 65, "too-many-parts"),
         (
             b'--between\r\nContent-Disposition: form-data; name="f"; filename="a"\r\n\r\nglTF\r\n' * 2 + b"--between--",
             "duplicate-part",

@@ -2,9 +2,9 @@
 
 import pytest
 
+from caesura.worker.embedded_redis.server import EmbeddedRedis
+from caesura.worker.settings import WorkerSettings
 from tests.installation import Installation, Pool, take_npz
-from worker.redis_server import EmbeddedRedis
-from worker.settings import WorkerSettings
 
 
 @pytest.fixture(scope="session")

@@ -4,10 +4,10 @@ import json
 
 import pytest
 
-from core.document import SegmentationDocument
+from caesura.core.document import SegmentationDocument
+from caesura.worker.alternatives import restore_alternative
+from caesura.worker.records import redis_keys
 from tests.installation import take_npz
-from worker import keys
-from worker.alternatives import recall
 
 SWITCHING = {"method": "switching"}
 
@@ -16,7 +16,7 @@ def stored(place, record):
     """The alternatives beside a result, once every one is there."""
     document, _, _ = place.records.segmentations.result(record.id)
     scored = SegmentationDocument.model_validate_json(document).scores
-    key = keys.alternatives_key(record.id)
+    key = redis_keys.alternatives_key(record.id)
     place.until(record.id, lambda _: place.redis.hlen(key) == len(scored))
     return [score.motions for score in scored]
 
@@ -45,7 +45,7 @@ def test_what_is_stored_is_not_listed_until_it_is_asked_for(place, unasked):
     """The animation has one segmentation, and a second one as soon as somebody wants it."""
     animation, done, scored = unasked
     assert [record.id for record in place.records.segmentations.of(animation.id)] == [done.id]
-    made = recall(place.records, place.wanted(animation, motions=scored[0], **SWITCHING), done.id)
+    made = restore_alternative(place.records, place.wanted(animation, motions=scored[0], **SWITCHING), done.id)
     assert {record.id for record in place.records.segmentations.of(animation.id)} == {done.id, made.id}
     place.jobs.delete(made.id)
 
@@ -54,7 +54,7 @@ def test_the_answer_is_the_one_that_a_job_would_give(place, unasked):
     """Byte for byte: document, curve and labels."""
     animation, done, scored = unasked
     wanted = place.wanted(animation, motions=scored[-1], **SWITCHING)
-    made = recall(place.records, wanted, done.id)
+    made = restore_alternative(place.records, wanted, done.id)
     assert (made.status, made.attempt) == ("done", 0)
     told = place.records.segmentations.result(made.id)
     place.jobs.delete(made.id)
@@ -70,28 +70,31 @@ def test_what_was_asked_for_before_stays_as_it_is(place, unasked):
     """A segmentation that is there is not made again of what is stored."""
     animation, done, scored = unasked
     wanted = place.wanted(animation, motions=scored[0], **SWITCHING)
-    assert recall(place.records, wanted, done.id) is not None
-    assert recall(place.records, wanted, done.id) is None
+    assert restore_alternative(place.records, wanted, done.id) is not None
+    assert restore_alternative(place.records, wanted, done.id) is None
     place.jobs.delete(wanted.id)
 
 
 def test_a_number_that_was_not_scored_is_not_stored(place, unasked):
     """Then it is a job, as always."""
     animation, done, scored = unasked
-    assert recall(place.records, place.wanted(animation, motions=max(scored) + 1, **SWITCHING), done.id) is None
+    assert (
+        restore_alternative(place.records, place.wanted(animation, motions=max(scored) + 1, **SWITCHING), done.id)
+        is None
+    )
 
 
 def test_they_go_with_their_result(place, take):
     """Deleted, nothing of it stays, and no late job writes any."""
     done = place.ended(place.submit(place.upload(take), **SWITCHING).id)
     place.jobs.delete(done.id)
-    place.redis.delete(keys.alternatives_key(done.id))
+    place.redis.delete(redis_keys.alternatives_key(done.id))
     again = place.ended(place.submit(place.upload(take), **SWITCHING).id)
     stored(place, again)  # the worker has come this far: it is past those of the deleted one
-    assert not place.redis.exists(keys.alternatives_key(done.id))
+    assert not place.redis.exists(redis_keys.alternatives_key(done.id))
 
 
 def test_a_worker_that_was_told_the_number_stores_none(place, take):
     """Nothing was scored."""
     done = place.ended(place.submit(place.upload(take), motions=2, **SWITCHING).id)
-    assert not place.redis.exists(keys.alternatives_key(done.id))
+    assert not place.redis.exists(redis_keys.alternatives_key(done.id))

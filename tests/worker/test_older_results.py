@@ -2,8 +2,8 @@
 
 import json
 
-from core.document import SegmentationDocument
-from worker import keys
+from caesura.core.document import SegmentationDocument
+from caesura.worker.records import redis_keys
 
 RECORD = {
     "id": "old", "animation": "take", "parameters": {"motions": 2}, "algorithm": "0", "status": "done",
@@ -20,8 +20,8 @@ DOCUMENT = {
 
 def test_a_result_of_an_earlier_version_is_read(idle):
     """Record and document, by a version that knows more fields; the algorithm stays the one that made it."""
-    idle.redis.set(keys.segmentation_key("old"), json.dumps(RECORD))
-    idle.redis.set(keys.segmentation_key("old", "document"), json.dumps(DOCUMENT))
+    idle.redis.set(redis_keys.segmentation_key("old"), json.dumps(RECORD))
+    idle.redis.set(redis_keys.segmentation_key("old", "document"), json.dumps(DOCUMENT))
     record = idle.records.segmentations.one("old")
     assert (record.status, record.algorithm, record.revision) == ("done", "0", 0)
     assert record.chosen().motions == 2
@@ -32,6 +32,6 @@ def test_a_result_of_an_earlier_version_is_read(idle):
 
 def test_what_a_later_version_adds_is_passed_over(idle):
     """While two versions run side by side, the older one reads the newer one's records."""
-    idle.redis.set(keys.segmentation_key("new"), json.dumps({**RECORD, "id": "new", "colour": "green"}))
+    idle.redis.set(redis_keys.segmentation_key("new"), json.dumps({**RECORD, "id": "new", "colour": "green"}))
     assert idle.records.segmentations.one("new").status == "done"
     assert SegmentationDocument.model_validate({**DOCUMENT, "mood": "glad"}).frames == 2

@@ -1,4 +1,4 @@
-"""`caesura serve`: one process that starts everything, and takes everything with it however it ends."""
+"""`caesura run_supervisor`: one process that starts everything, and takes everything with it however it ends."""
 
 import json
 import os
@@ -11,14 +11,14 @@ from pathlib import Path
 
 import pytest
 
+from caesura.worker.settings import WorkerSettings
 from tests.installation import SLOWLY, Installation, alive, descendants
-from worker.settings import WorkerSettings
 
 SERVE = """
-from service.settings import ServiceSettings
-from service.supervisor import serve
+from caesura.service.settings import ServiceSettings
+from caesura.service.process.supervisor import run_supervisor
 import sys
-serve(ServiceSettings(port=0), on_ready=lambda address: print(address, flush=True))
+run_supervisor(ServiceSettings(port=0), on_ready=lambda address: print(address, flush=True))
 assert "numpy" not in sys.modules
 """
 
@@ -68,7 +68,7 @@ def command(pid):
 @pytest.fixture
 def start(tmp_path_factory):
     """Starts the supervisor over one data folder; what a test leaves behind is killed."""
-    folder = tmp_path_factory.mktemp("serve")
+    folder = tmp_path_factory.mktemp("run_supervisor")
     started = []
 
     def begin():
@@ -106,7 +106,7 @@ def test_children_that_die_are_started_again(start, take):
     """Without its Redis, its web process or its workers, the service comes back, and a new take is segmented."""
     serving = start()
     done = serving.place.ended(serving.place.submit(serving.place.upload(take)).id)
-    for word in ("valkey-server", "service.web", "-m worker"):
+    for word in ("valkey-server", "caesura.service.process.web", "-m caesura.worker"):
         os.kill(serving.named(word), signal.SIGKILL)
     deadline = time.monotonic() + 20
     while time.monotonic() < deadline:

@@ -4,8 +4,8 @@ import json
 
 import numpy as np
 
+from caesura.worker.queue.auxiliary_jobs import submit_export
 from tests.installation import SLOWLY
-from worker.errands import submit_export
 
 
 def test_an_upload_becomes_a_result(place, take):

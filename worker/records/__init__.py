@@ -9,11 +9,11 @@ exports        files made of a result
 
 import redis
 
-from worker.records.analyses import Analyses
-from worker.records.animations import Animations
-from worker.records.attempts import Attempts
-from worker.records.exports import Exports
-from worker.records.segmentations import Segmentations
+from caesura.worker.records.analyses import Analyses
+from caesura.worker.records.animations import Animations
+from caesura.worker.records.attempts import Attempts
+from caesura.worker.records.result_files import ResultFiles
+from caesura.worker.records.segmentations import Segmentations
 
 
 class Records:
@@ -25,4 +25,4 @@ class Records:
         self.analyses = Analyses(client)
         self.segmentations = Segmentations(client)
         self.attempts = Attempts(client, self.segmentations)
-        self.exports = Exports(client)
+        self.exports = ResultFiles(client)

@@ -2,9 +2,9 @@
 
 import redis
 
-from worker import keys
-from worker.connection import names
-from worker.schema import AnalysisRecord
+from caesura.worker.records import redis_keys
+from caesura.worker.records.connection import names
+from caesura.worker.records.schema import AnalysisRecord
 
 
 class Analyses:
@@ -15,11 +15,11 @@ class Analyses:
 
     def one(self, animation: str, digest: str) -> AnalysisRecord | None:
         """The analysis of an animation with certain heavy parameters, or None."""
-        return AnalysisRecord.read(self._redis.get(keys.analysis_key(animation, digest)))
+        return AnalysisRecord.read(self._redis.get(redis_keys.analysis_key(animation, digest)))
 
     def all(self, animation: str) -> dict[str, AnalysisRecord]:
         """All analyses of an animation, by digest."""
-        digests = sorted(names(self._redis.smembers(keys.analyses_key(animation))))
+        digests = sorted(names(self._redis.smembers(redis_keys.analyses_key(animation))))
         found = {digest: self.one(animation, digest) for digest in digests}
         return {digest: record for digest, record in found.items() if record is not None}
 
@@ -28,15 +28,15 @@ class Analyses:
 
         None where the animation was deleted meanwhile: then nothing is kept.
         """
-        key = keys.analysis_key(animation, digest)
+        key = redis_keys.analysis_key(animation, digest)
         with self._redis.pipeline() as pipe:
             while True:
-                pipe.watch(keys.animation_key(animation))
-                if not pipe.exists(keys.animation_key(animation)):
+                pipe.watch(redis_keys.animation_key(animation))
+                if not pipe.exists(redis_keys.animation_key(animation)):
                     return None
                 pipe.multi()
                 pipe.set(key, record.model_dump_json(), nx=True)
-                pipe.sadd(keys.analyses_key(animation), digest)
+                pipe.sadd(redis_keys.analyses_key(animation), digest)
                 pipe.get(key)
                 try:
                     return AnalysisRecord.model_validate_json(pipe.execute()[-1])
@@ -46,6 +46,6 @@ class Analyses:
     def delete(self, animation: str, digest: str) -> None:
         """Forget an analysis; its blobs are the caller's to delete."""
         with self._redis.pipeline() as pipe:
-            pipe.delete(keys.analysis_key(animation, digest))
-            pipe.srem(keys.analyses_key(animation), digest)
+            pipe.delete(redis_keys.analysis_key(animation, digest))
+            pipe.srem(redis_keys.analyses_key(animation), digest)
             pipe.execute()

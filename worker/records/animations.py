@@ -4,9 +4,9 @@ import time
 
 import redis
 
-from worker import keys
-from worker.connection import names
-from worker.schema import AnimationRecord
+from caesura.worker.records import redis_keys
+from caesura.worker.records.connection import names
+from caesura.worker.records.schema import TAKES, AnimationRecord, TakeSummary
 
 
 class Animations:
@@ -17,14 +17,18 @@ class Animations:
 
     def one(self, identifier: str) -> AnimationRecord | None:
         """The animation, or None."""
-        return AnimationRecord.read(self._redis.get(keys.animation_key(identifier)))
+        return AnimationRecord.read(self._redis.get(redis_keys.animation_key(identifier)))
 
-    def add(self, record: AnimationRecord) -> tuple[AnimationRecord, bool]:
+    def takes(self, record: AnimationRecord) -> tuple[TakeSummary, ...]:
+        """The takes of an animation."""
+        return record.takes or TAKES.validate_json(self._redis.get(redis_keys.takes_key(record.id)) or b"[]")
+
+    def add(self, record: AnimationRecord, takes: tuple[TakeSummary, ...] = ()) -> tuple[AnimationRecord, bool]:
         """Keep a new animation: (the record that is kept, whether it is this one).
 
         Where it was there before, with its files, the stored record is answered; the caller then deletes its own.
         """
-        key = keys.animation_key(record.id)
+        key = redis_keys.animation_key(record.id)
         with self._redis.pipeline() as pipe:
             while True:
                 pipe.watch(key)
@@ -33,8 +37,9 @@ class Animations:
                     return kept, False
                 pipe.multi()
                 pipe.set(key, record.model_dump_json())
-                pipe.zadd(keys.animations_key(record.owner), {record.id: record.created})
-                pipe.zadd(keys.USED_KEY, {record.id: record.created})
+                pipe.set(redis_keys.takes_key(record.id), TAKES.dump_json(takes))
+                pipe.zadd(redis_keys.animations_key(record.owner), {record.id: record.created})
+                pipe.zadd(redis_keys.LAST_USED_KEY, {record.id: record.created})
                 try:
                     pipe.execute()
                 except redis.WatchError:
@@ -44,16 +49,19 @@ class Animations:
     def strip(self, record: AnimationRecord) -> None:
         """Forget where its files were: they are gone."""
         self._redis.set(
-            keys.animation_key(record.id), record.model_copy(update={"parts": ()}).model_dump_json(), xx=True
+            redis_keys.animation_key(record.id), record.model_copy(update={"parts": ()}).model_dump_json(), xx=True
         )
 
     def uses(self) -> dict[str, float]:
         """When each animation was used last: uploaded, or asked to be cut."""
-        return {name: score for (name,), score in ((names([n]), s) for n, s in self._redis.zscan_iter(keys.USED_KEY))}
+        return {
+            name: score
+            for (name,), score in ((names([n]), s) for n, s in self._redis.zscan_iter(redis_keys.LAST_USED_KEY))
+        }
 
     def touch(self, identifier: str) -> None:
         """It is used now, and so kept from now on."""
-        self._redis.zadd(keys.USED_KEY, {identifier: time.time()}, xx=True)
+        self._redis.zadd(redis_keys.LAST_USED_KEY, {identifier: time.time()}, xx=True)
 
     def delete(self, record: AnimationRecord) -> bool:
         """Forget an animation; its blobs, analyses and segmentations are the caller's to delete before.
@@ -61,13 +69,14 @@ class Animations:
         False, and nothing is forgotten, where it has segmentations: one was asked for in this moment.
         """
         with self._redis.pipeline() as pipe:
-            pipe.watch(keys.segmentations_key(record.id))
-            if pipe.exists(keys.segmentations_key(record.id)):
+            pipe.watch(redis_keys.segmentations_key(record.id))
+            if pipe.exists(redis_keys.segmentations_key(record.id)):
                 return False
             pipe.multi()
-            pipe.delete(keys.animation_key(record.id))
-            pipe.zrem(keys.animations_key(record.owner), record.id)
-            pipe.zrem(keys.USED_KEY, record.id)
+            pipe.delete(redis_keys.animation_key(record.id), redis_keys.takes_key(record.id))
+            pipe.zrem(redis_keys.animations_key(record.owner), record.id)
+            pipe.zrem(redis_keys.LAST_USED_KEY, record.id)
+            pipe.set(redis_keys.DELETED_KEY, b"1")
             try:
                 pipe.execute()
             except redis.WatchError:

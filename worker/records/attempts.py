@@ -8,9 +8,9 @@ from typing import Any
 import redis
 from redis.client import Pipeline
 
-from worker import keys
-from worker.records.segmentations import Change, Segmentations
-from worker.schema import SegmentationRecord
+from caesura.worker.records import redis_keys
+from caesura.worker.records.schema import SegmentationRecord
+from caesura.worker.records.segmentations import Change, Segmentations
 
 LEASE_SECONDS = 20  # an attempt whose worker gave no sign for so long is lost
 
@@ -33,11 +33,11 @@ class Attempts:
 
     def renew(self, token: str, client: redis.Redis | None = None) -> None:
         """Say that the attempt's worker lives."""
-        (client or self._redis).set(keys.lease_key(token), b"1", ex=LEASE_SECONDS)
+        (client or self._redis).set(redis_keys.lease_key(token), b"1", ex=LEASE_SECONDS)
 
     def leased(self, token: str) -> bool:
-        """Whether its worker said so lately."""
-        return bool(self._redis.exists(keys.lease_key(token)))
+        """Whether its worker said so lately. A longer lease than any was given while Redis's clock was ahead."""
+        return 0 <= self._redis.ttl(redis_keys.lease_key(token)) <= LEASE_SECONDS
 
     def change(self, identifier: str, token: str, **changes: Any) -> SegmentationRecord | None:
         """Change a running segmentation's fields where `token` is still its attempt; None where it is not."""
@@ -47,9 +47,9 @@ class Attempts:
         """running -> done, with the result document and the byte arrays `energy` and `labels`, all at once."""
 
         def also(pipe: Pipeline, _: SegmentationRecord) -> None:
-            pipe.set(keys.segmentation_key(identifier, "document"), document)
-            pipe.set(keys.segmentation_key(identifier, "energy"), arrays["energy"])
-            pipe.set(keys.segmentation_key(identifier, "labels"), arrays["labels"])
+            pipe.set(redis_keys.segmentation_key(identifier, "document"), document)
+            pipe.set(redis_keys.segmentation_key(identifier, "energy"), arrays["energy"])
+            pipe.set(redis_keys.segmentation_key(identifier, "labels"), arrays["labels"])
 
         done = {"status": "done", "stage": "", "fraction": 1.0, "problem": None, **summary}
         change: Change = lambda r: r.with_(**done) if _running(r, token) else None  # noqa: E731  one line says it

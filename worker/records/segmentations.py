@@ -6,13 +6,13 @@ from collections.abc import Callable
 import redis
 from redis.client import Pipeline
 
-from core.errors import CaesuraError
-from worker import keys, tallies
-from worker.connection import names
-from worker.schema import SegmentationRecord
+from caesura.core.errors import CaesuraError
+from caesura.worker.records import counters, redis_keys
+from caesura.worker.records.connection import names
+from caesura.worker.records.schema import SegmentationRecord
 
 Change = Callable[[SegmentationRecord], SegmentationRecord | None]
-Also = Callable[[Pipeline, SegmentationRecord], None]
+AlsoWrite = Callable[[Pipeline, SegmentationRecord], None]
 
 
 class AnimationDeleted(CaesuraError):
@@ -29,28 +29,28 @@ class Segmentations:
 
     def one(self, identifier: str) -> SegmentationRecord | None:
         """The segmentation, or None."""
-        return SegmentationRecord.read(self._redis.get(keys.segmentation_key(identifier)))
+        return SegmentationRecord.read(self._redis.get(redis_keys.segmentation_key(identifier)))
 
     def of(self, animation: str) -> list[SegmentationRecord]:
         """All segmentations of an animation, newest first."""
-        ids = names(self._redis.zrevrange(keys.segmentations_key(animation), 0, -1))
+        ids = names(self._redis.zrevrange(redis_keys.segmentations_key(animation), 0, -1))
         return [record for record in map(self.one, ids) if record is not None]
 
     def live(self) -> list[SegmentationRecord]:
         """All segmentations that are queued or running."""
-        ids = sorted(names(self._redis.smembers(keys.LIVE_KEY)))
+        ids = sorted(names(self._redis.smembers(redis_keys.LIVE_SEGMENTATIONS_KEY)))
         return [record for record in map(self.one, ids) if record is not None and record.live]
 
     def result(self, identifier: str) -> tuple[bytes | None, bytes | None, bytes | None]:
         """The result document, the energy curve and the labels, as stored."""
         with self._redis.pipeline() as pipe:
             for part in ("document", "energy", "labels"):
-                pipe.get(keys.segmentation_key(identifier, part))
+                pipe.get(redis_keys.segmentation_key(identifier, part))
             document, energy, labels = pipe.execute()
             return document, energy, labels
 
     def change(
-        self, identifier: str, change: Change, also: Also | None = None, new: SegmentationRecord | None = None
+        self, identifier: str, change: Change, also: AlsoWrite | None = None, new: SegmentationRecord | None = None
     ) -> SegmentationRecord | None:
         """Replace the record by `change(record)`, together with what `also` puts into the same MULTI.
 
@@ -58,7 +58,7 @@ class Segmentations:
         and None is answered. It is called again where another process wrote in between, so it must be pure.
         Raises `AnimationDeleted` where it would be `new`, and what it is of has gone meanwhile.
         """
-        key = keys.segmentation_key(identifier)
+        key = redis_keys.segmentation_key(identifier)
         with self._redis.pipeline() as pipe:
             while True:
                 pipe.watch(key)
@@ -73,7 +73,7 @@ class Segmentations:
                 after = after.with_(updated=time.time())
                 pipe.multi()
                 _write(pipe, after)
-                tallies.count_change(pipe, before, after)
+                counters.count_change(pipe, before, after)
                 if also is not None:
                     also(pipe, after)
                 try:
@@ -85,18 +85,19 @@ class Segmentations:
     def delete(self, record: SegmentationRecord) -> bool:
         """Forget a segmentation and its result; False, and nothing is forgotten, where it is live again: cancel it."""
         with self._redis.pipeline() as pipe:
-            key = keys.segmentation_key(record.id)
+            key = redis_keys.segmentation_key(record.id)
             pipe.watch(key)
             kept = SegmentationRecord.read(pipe.get(key))
             if kept is not None and kept.live:
                 return False
             pipe.multi()
-            parts = [keys.segmentation_key(record.id, part) for part in ("document", "energy", "labels")]
-            pipe.delete(key, *parts, keys.revisions_key(record.id), keys.revised_key(record.id))
-            pipe.delete(keys.alternatives_key(record.id))
-            pipe.zrem(keys.segmentations_key(record.animation), record.id)
-            pipe.srem(keys.LIVE_KEY, record.id)
-            pipe.publish(keys.channel(record.id), b"deleted")
+            parts = [redis_keys.segmentation_key(record.id, part) for part in ("document", "energy", "labels")]
+            pipe.delete(key, *parts, redis_keys.revisions_key(record.id), redis_keys.revised_key(record.id))
+            pipe.delete(redis_keys.alternatives_key(record.id))
+            pipe.zrem(redis_keys.segmentations_key(record.animation), record.id)
+            pipe.srem(redis_keys.LIVE_SEGMENTATIONS_KEY, record.id)
+            pipe.set(redis_keys.DELETED_KEY, b"1")
+            pipe.publish(redis_keys.channel(record.id), b"deleted")
             try:
                 pipe.execute()
             except redis.WatchError:
@@ -105,14 +106,14 @@ class Segmentations:
 
 
 def _write(pipe: Pipeline, record: SegmentationRecord) -> None:
-    pipe.set(keys.segmentation_key(record.id), record.model_dump_json())
-    pipe.zadd(keys.segmentations_key(record.animation), {record.id: record.created})
-    (pipe.sadd if record.live else pipe.srem)(keys.LIVE_KEY, record.id)
-    pipe.publish(keys.channel(record.id), record.status)
+    pipe.set(redis_keys.segmentation_key(record.id), record.model_dump_json())
+    pipe.zadd(redis_keys.segmentations_key(record.animation), {record.id: record.created})
+    (pipe.sadd if record.live else pipe.srem)(redis_keys.LIVE_SEGMENTATIONS_KEY, record.id)
+    pipe.publish(redis_keys.channel(record.id), record.status)
 
 
 def _watch_animation(pipe: Pipeline, identifier: str) -> None:
     """Whoever deletes it from now on spoils the MULTI: nothing is kept that nobody would delete any more."""
-    pipe.watch(keys.animation_key(identifier))
-    if not pipe.exists(keys.animation_key(identifier)):
+    pipe.watch(redis_keys.animation_key(identifier))
+    if not pipe.exists(redis_keys.animation_key(identifier)):
         raise AnimationDeleted("animation-deleted", "The animation was deleted meanwhile. Upload it again.")

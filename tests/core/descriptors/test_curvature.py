@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import trimesh
 
-from core.descriptors.curvature import Curvature
-from core.mesh.angles import AngleDefect, Folding
-from core.mesh.edges import hinges
+from caesura.core.descriptors.curvature import Curvature
+from caesura.core.mesh.angles import AngleDefect, FoldAngles
+from caesura.core.mesh.edges import find_hinges
 from tests import oracles
 from tests.animations import bar, performing_bar, turned
 from tests.core.mesh.shapes import mesh, rolled, sheet, values
@@ -20,7 +20,7 @@ def test_a_sphere_is_curved_by_its_radius(radius):
     ball = trimesh.creation.icosphere(subdivisions=4, radius=radius)
     sphere = mesh(ball.vertices, np.asarray(ball.faces, np.int64))
     defect = AngleDefect.of(sphere).total(sphere.rows_at_rest())[:, 0]
-    folds = Folding(hinges(sphere.corners)).total(sphere.rows_at_rest())[:, 0]
+    folds = FoldAngles(find_hinges(sphere.corners)).total(sphere.rows_at_rest())[:, 0]
     six = np.bincount(sphere.corners.ravel()) == 6  # at the twelve others a third of the triangles is no fair share
     np.testing.assert_allclose((defect / sphere.cells())[six], radius**-2, rtol=0.06)
     np.testing.assert_allclose((folds / sphere.cells())[six], 1 / radius, rtol=0.06)
@@ -34,7 +34,7 @@ def test_a_flat_sheet_has_no_curvature():
     flat = mesh(*sheet())
     inside = (flat.rest[:, :2] > 0).all(axis=1) & (flat.rest[:, :2] < flat.rest[:, :2].max(axis=0)).all(axis=1)
     np.testing.assert_allclose(AngleDefect.of(flat).total(flat.rows_at_rest())[inside], 0, atol=2e-6)
-    np.testing.assert_allclose(Folding(hinges(flat.corners)).total(flat.rows_at_rest()), 0, atol=1e-6)
+    np.testing.assert_allclose(FoldAngles(find_hinges(flat.corners)).total(flat.rows_at_rest()), 0, atol=1e-6)
 
 
 def test_rolling_a_sheet_changes_its_mean_curvature_alone():

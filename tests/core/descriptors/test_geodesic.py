@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from core.descriptors.geodesic import SOURCES, Geodesic
-from core.mesh.net import Net
+from caesura.core.descriptors.geodesic import SOURCES, Geodesic
+from caesura.core.mesh.edge_graph import EdgeGraph
 from tests import oracles
 from tests.animations import bar, performing_bar, turned
 from tests.core.mesh.shapes import mesh, rolled, sheet, values
@@ -14,7 +14,7 @@ def test_along_a_flat_strip_the_distance_is_euclids():
     """From its first corner to every point of the same side."""
     strip = mesh(*sheet(columns=30, rows=2))
     side = strip.rest[:, 1] == 0
-    np.testing.assert_allclose(Net.of(strip).from_nearest(np.array([0]))[side], np.arange(30))
+    np.testing.assert_allclose(EdgeGraph.of(strip).from_nearest(np.array([0]))[side], np.arange(30))
 
 
 def test_paths_are_the_shortest_in_every_frame():

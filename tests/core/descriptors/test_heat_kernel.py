@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from core.descriptors import heat_kernel
-from core.descriptors.heat_kernel import HeatKernel
-from core.errors import LimitExceeded
-from core.mesh.laplacian import DENSE, Laplacian
+from caesura.core.descriptors import heat_kernel
+from caesura.core.descriptors.heat_kernel import HeatKernel
+from caesura.core.errors import LimitExceeded
+from caesura.core.mesh.laplacian import DENSE, Laplacian
 from tests import oracles
 from tests.animations import bar, performing_bar, turned
 from tests.core.mesh.shapes import mesh, rolled, sheet, values

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from core.descriptors.pair_distances import PAIRS, PairDistances
+from caesura.core.descriptors.pair_distances import PAIRS, PairDistances
 from tests.animations import bar, turned
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from core.mesh.mesh import Mesh
+from caesura.core.mesh.mesh import Mesh
 
 
 def sheet(columns=12, rows=5):

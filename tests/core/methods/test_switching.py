@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
-from core.agreement import boundary_scores, cuts_of, frame_accuracy
-from core.analysis import Analysis, Features
-from core.document import Source
-from core.methods.switching import switching
-from core.parameters import Parameters
-from core.pipeline import segment
+from caesura.core.agreement import boundary_scores, cut_frames, frame_accuracy
+from caesura.core.analysis import Analysis, Features
+from caesura.core.document import Source
+from caesura.core.methods.switching.method import switching
+from caesura.core.parameters import Parameters
+from caesura.core.pipeline import segment
 from tests.animations import animation, bar, turned
 
 RATE = 30.0
@@ -68,7 +68,7 @@ def test_motions_are_found(motions, segments):
     values, truth = performance(motions, segments, seed=motions)
     labels = cut(analysis_of(values), motions).labels
     assert frame_accuracy(labels, truth) > 0.97
-    assert boundary_scores(cuts_of(labels), cuts_of(truth), round(0.5 * RATE)).f1 > 0.95
+    assert boundary_scores(cut_frames(labels), cut_frames(truth), round(0.5 * RATE)).f1 > 0.95
 
 
 @pytest.mark.parametrize(("motions", "segments"), [(1, 1), (2, 4), (3, 7), (8, 16), (15, 32), (30, 70)])
@@ -86,7 +86,7 @@ def test_every_cut_has_a_confidence():
     """One number from 0 to 1 for each change of label."""
     values, _ = performance(4, 9, seed=3)
     found = cut(analysis_of(values), 4)
-    assert len(found.confidence) == len(cuts_of(found.labels))
+    assert len(found.confidence) == len(cut_frames(found.labels))
     assert ((found.confidence > 0) & (found.confidence <= 1)).all()
 
 
@@ -102,7 +102,7 @@ def test_a_weaker_change_is_less_sure():
 def test_a_take_backwards_is_cut_in_the_same_places():
     """Time reversed, the cuts are mirrored, to within a tenth of a second."""
     values, _ = performance(5, 11, seed=7)
-    forwards, backwards = (cuts_of(cut(analysis_of(v), 5).labels) for v in (values, values[::-1]))
+    forwards, backwards = (cut_frames(cut(analysis_of(v), 5).labels) for v in (values, values[::-1]))
     assert len(forwards) == len(backwards)
     np.testing.assert_allclose(np.sort(len(values) - backwards), forwards, atol=3)
 
@@ -161,7 +161,7 @@ def test_the_rate_of_the_frames_hardly_matters():
     values, _ = performance(4, 9, seed=17)
     full = analysis_of(values)
     half = replace(analysis_of(values[::2]), frame_rate=RATE / 2)
-    np.testing.assert_allclose(cuts_of(cut(half, 4).labels) * 2, cuts_of(cut(full, 4).labels), atol=4)
+    np.testing.assert_allclose(cut_frames(cut(half, 4).labels) * 2, cut_frames(cut(full, 4).labels), atol=4)
 
 
 def test_the_number_of_threads_does_not_matter():
@@ -184,5 +184,5 @@ def test_walking_about_changes_nothing():
     performed = rest + np.stack([0 * bend, bend, sway], axis=2)
     carried = np.stack([turned(f, i / 40) + np.array([i / 30, 0, i / 60]) for i, f in enumerate(performed)])
     one, other = (segment(animation(v, triangles, rest=rest)).labels for v in (performed, carried))
-    np.testing.assert_array_equal(cuts_of(one), [pytest.approx(240, abs=4)])
-    np.testing.assert_allclose(cuts_of(other), cuts_of(one), atol=1)
+    np.testing.assert_array_equal(cut_frames(one), [pytest.approx(240, abs=4)])
+    np.testing.assert_allclose(cut_frames(other), cut_frames(one), atol=1)

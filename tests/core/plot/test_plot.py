@@ -10,12 +10,12 @@ from xml.etree import ElementTree
 import pytest
 from PIL import Image
 
-from core.document import KeyFrame, Segment, SegmentationDocument, Source, motion_name
-from core.errors import ParameterError
-from core.plot.layout import BAR, COLOURS, CURVE, DISCARDED, GAP, TOP, picture_of
-from core.plot.picture import Box, Dot, Label, Line
-from core.plot.png import SCALE, png
-from core.plot.svg import svg
+from caesura.core.document import KeyFrame, Segment, SegmentationDocument, Source, motion_name
+from caesura.core.errors import ParameterError
+from caesura.core.plot.layout import BAR, COLOURS, CURVE, DISCARDED, GAP, TOP, lay_out_picture
+from caesura.core.plot.picture import Box, Dot, Label, Line
+from caesura.core.plot.png import SCALE, render_png
+from caesura.core.plot.svg import render_svg
 
 
 def document(cuts=(60, 100), frames=200, names=(), energy=None, discard=(), start=0.0):
@@ -39,7 +39,7 @@ def document(cuts=(60, 100), frames=200, names=(), energy=None, discard=(), star
 
 
 def of(kind, found):
-    return [shape for shape in picture_of(found).shapes if isinstance(shape, kind)]
+    return [shape for shape in lay_out_picture(found).shapes if isinstance(shape, kind)]
 
 
 def test_it_shows_curve_key_frames_cuts_and_segments():
@@ -64,7 +64,7 @@ def test_a_session_is_drawn_in_few_points():
     found = document(cuts=[40_000], frames=72_000, energy=energy)
     highest = min(y for line in of(Line, found) for _, y in line.points if line.width == 1.5)
     assert highest < 30
-    assert len(svg(picture_of(found))) < 100_000
+    assert len(render_svg(lay_out_picture(found))) < 100_000
     assert "minutes" in {label.text for label in of(Label, found)}
 
 
@@ -80,9 +80,9 @@ def test_a_session_is_drawn_in_few_points():
 )
 def test_odd_results_are_drawn_too(found):
     """One frame, no curve, a flat one, 2,000 segments of a frame each, a clock that is late."""
-    picture = picture_of(found)
-    ElementTree.fromstring(svg(picture))
-    assert Image.open(io.BytesIO(png(picture))).size == (picture.width * SCALE, picture.height * SCALE)
+    picture = lay_out_picture(found)
+    ElementTree.fromstring(render_svg(picture))
+    assert Image.open(io.BytesIO(render_png(picture))).size == (picture.width * SCALE, picture.height * SCALE)
 
 
 HOSTILE = '</text><script>alert("1")</script>&amp;\x00\x1b\ufffe'
@@ -90,7 +90,7 @@ HOSTILE = '</text><script>alert("1")</script>&amp;\x00\x1b\ufffe'
 
 def test_a_name_stays_a_name():
     """Nothing in it is markup, and what XML cannot hold is left out."""
-    text = svg(picture_of(document(cuts=(), names=[HOSTILE])))
+    text = render_svg(lay_out_picture(document(cuts=(), names=[HOSTILE])))
     root = ElementTree.fromstring(text)
     assert "script" not in {element.tag.rpartition("}")[2] for element in root.iter()}
     assert '</text><script>alert("1")</script>&amp;' in {element.text for element in root.iter()}
@@ -98,8 +98,8 @@ def test_a_name_stays_a_name():
 
 def drawn(name, font=None):
     """The picture of a result whose first motion has a name: the bar of its segments, and the foot."""
-    picture = picture_of(document(names=[name, "B", "C"]))
-    image = Image.open(io.BytesIO(png(picture, font)))
+    picture = lay_out_picture(document(names=[name, "B", "C"]))
+    image = Image.open(io.BytesIO(render_png(picture, font)))
     bar = (TOP + CURVE + GAP) * SCALE, (TOP + CURVE + GAP + BAR) * SCALE
     above, below = (image.crop((0, start, image.width, end)) for start, end in (bar, (bar[1], image.height)))
     return above, below
@@ -152,7 +152,8 @@ def test_the_same_result_is_the_same_bytes():
     """Also in another process, whatever its hashes are."""
     program = (
         "import hashlib; from tests.core.plot.test_plot import *;"
-        "print(hashlib.sha256(svg(picture_of(document())).encode() + png(picture_of(document()))).hexdigest())"
+        "picture = lay_out_picture(document());"
+        "print(hashlib.sha256(render_svg(picture).encode() + render_png(picture)).hexdigest())"
     )
     said = [subprocess.run([sys.executable, "-c", program], capture_output=True, check=True).stdout for _ in range(2)]
     assert said[0] == said[1]

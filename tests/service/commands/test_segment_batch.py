@@ -7,12 +7,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from samples.figures import figure
-from service.cli import main
-from service.commands.files import targets
+from caesura.samples.figures import figure
+from caesura.service.commands.cli import main
+from caesura.service.commands.files import output_paths
+from tests.conftest import unavailable
 from tests.installation import take_npz
 
 
@@ -34,6 +36,7 @@ def takes(tmp_path_factory):
         (folder / name).parent.mkdir()
         (folder / name).write_bytes(take_npz(order))
     (folder / "monday" / "z→.npz").write_text("<html>404</html>")
+    (folder / "one.bin").write_bytes(b"")
     return folder
 
 
@@ -90,6 +93,8 @@ def test_a_folder_that_cannot_be_written_is_said(takes):
         (["monday/walk.npz", "--csv", "tuesday"], "'tuesday' is a folder"),
         (["monday/walk.npz", "--csv", "one", "--vtt", "./one"], "'one' is named twice"),
         (["monday/walk.npz", "--discard", "A", "--csv", "one.csv"], "--discard says how clips are made"),
+        (["monday/walk.npz", "--csv", "monday/walk.npz"], "'monday/walk.npz' is one of the files to read"),
+        (["monday/walk.npz", "one.bin", "--clips", "one.bin"], "'one.bin' is one of the files to read"),
         (["--clips", "monday/walk.npz", "tuesday/walk.npz"], "'monday/walk.npz' is an animation, and --clips would"),
     ],
 )
@@ -149,4 +154,22 @@ def test_results_of_two_files_never_share_a_name(tmp_path):
     """Files of one name but for the suffix, even in another case, keep their suffixes."""
     files = [Path("/t/a.glb"), Path("/t/A.npz"), Path("/t/b.glb"), Path("/t/below/b.glb")]
     out = tmp_path / "out"
-    assert targets(files, out) == [out / "a.glb", out / "A.npz", out / "b", out / "below" / "b"]
+    assert output_paths(files, out) == [out / "a.glb", out / "A.npz", out / "b", out / "below" / "b"]
+
+
+def test_a_full_folder_for_temporary_files_is_said(takes):
+    """Where what must be inflated has no room, the file failed, by a sentence: no bus error ends the command."""
+    arrays = dict(np.load(takes / "monday/walk.npz"))
+    np.savez_compressed(takes / "deflated.npz", **arrays)
+    small = 'mkdir full && mount -t tmpfs -o size=64k none full && TMPDIR=$PWD/full exec "$@"'
+    program = Path(sys.executable).parent / "caesura"
+    alone = ["unshare", "--user", "--map-root-user", "--mount"]
+    if subprocess.run([*alone, "true"], check=False, capture_output=True).returncode:
+        unavailable("this machine gives no user its own mounts")
+    run = subprocess.run(
+        [*alone, "sh", "-c", small, "sh", program, "segment", "deflated.npz", "--motions", "2"],
+        cwd=takes, check=False, capture_output=True, text=True, timeout=240,
+    )  # fmt: skip
+    assert run.returncode == 3, run.stderr
+    assert f"{takes / 'full'} has no room for" in run.stderr
+    assert "[file-system]" in run.stderr

@@ -17,12 +17,11 @@ export async function showRecent(open) {
       make('span', {}, animationFacts(animation))))));
 }
 
-function animationFacts({ format, takes = [], triangles, created }) {
-  const longest = takes.reduce((best, take) => (take.duration_seconds > (best?.duration_seconds ?? -1) ? take : best), null);
+function animationFacts({ format, take_count: takes, duration_seconds: seconds, triangles, created }) {
   return [
     format && format.toUpperCase(),
-    longest && duration(longest.duration_seconds),
-    takes.length > 1 && count(takes.length, 'take'),
+    seconds !== null && duration(seconds),
+    takes > 1 && count(takes, 'take'),
     triangles ? count(triangles, 'triangle') : null,
     created && ago(created),
   ].filter(Boolean).join(' · ');

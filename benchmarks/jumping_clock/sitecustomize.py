@@ -1,0 +1,39 @@
+"""A wall clock that another process moves: Python loads this at its start where this folder is on PYTHONPATH.
+
+`JUMPING_CLOCK` names a file that holds the seconds by which it is wrong. The monotonic clock is left alone, as it is by
+whoever sets the time of a machine. Redis is no Python, and keeps its own time.
+"""
+
+import datetime
+import os
+import time
+from pathlib import Path
+from typing import Any
+
+OFFSET = Path(os.environ["JUMPING_CLOCK"])
+
+system_time = time.time
+SystemDatetime = datetime.datetime
+
+
+def jumped_time() -> float:
+    """Seconds since 1970 by the clock that is wrong."""
+    return system_time() + float(OFFSET.read_text() or 0)
+
+
+class _IsDatetime(type):
+    def __instancecheck__(cls, value: object) -> bool:
+        return isinstance(value, SystemDatetime)
+
+
+class JumpedDatetime(SystemDatetime, metaclass=_IsDatetime):
+    """`datetime` by the same clock."""
+
+    @classmethod
+    def now(cls, tz: datetime.tzinfo | None = None) -> Any:
+        """The time now."""
+        return SystemDatetime.fromtimestamp(jumped_time(), tz)
+
+
+time.time = jumped_time
+datetime.datetime = JumpedDatetime  # type: ignore[misc]

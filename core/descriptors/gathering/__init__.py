@@ -1,1 +1,0 @@
-"""From vertices, frame by frame, to rows of frames: what every loop over frames starts from."""

@@ -1,0 +1,78 @@
+"""The descriptors by name: each measures every column of a surface, triangle by triangle, on a block of frames.
+
+Whatever is chosen, the rest of the method is the same: codes, percentile, joint histogram, energy, key-frames. All but
+the default are imported when asked for: they bring sparse matrices.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+from jaxtyping import Float32
+
+from caesura.core.animation import Animation
+from caesura.core.descriptors.strain import TriangleStrain
+from caesura.core.mesh.mesh import Mesh
+from caesura.core.mesh.welding import weld_vertices
+from caesura.core.parameters import Parameters
+
+
+@runtime_checkable
+class Descriptor(Protocol):
+    """Values of a body: of its triangles, or of its pairs of points where it has none that change."""
+
+    @property
+    def columns(self) -> int:
+        """How many values there are in a frame."""
+
+    def tiles(
+        self, block: Float32[np.ndarray, "frames V 3"]
+    ) -> Iterator[tuple[slice, Float32[np.ndarray, "n frames"]]]:
+        """Columns, and their value ≥ 0 in every frame; each array lives until the next."""
+
+    def noise(self, reach: float) -> Float32[np.ndarray, "columns"]:
+        """The value that rounding alone gives each column where coordinates go up to `reach`."""
+
+
+@dataclass(frozen=True)
+class DescriptorInput:
+    """What is to be measured. `strain` knows which triangles have area and in what order; `mesh` is made when asked."""
+
+    animation: Animation
+    rest: Float32[np.ndarray, "V 3"]
+    strain: TriangleStrain
+    parameters: Parameters
+
+    @cached_property
+    def mesh(self) -> Mesh:
+        """The same triangles, in the same order, welded."""
+        triangles = self.animation.triangles[self.strain.triangles]
+        return Mesh.of(self.rest, triangles, weld_vertices(self.animation, self.rest), self.parameters.scale_invariant)
+
+
+def _geodesic(subject: DescriptorInput) -> Descriptor:
+    from caesura.core.descriptors.geodesic import Geodesic  # noqa: PLC0415
+
+    return Geodesic.of(subject.mesh)
+
+
+def _heat_kernel(subject: DescriptorInput) -> Descriptor:
+    from caesura.core.descriptors.heat_kernel import HeatKernel  # noqa: PLC0415
+
+    return HeatKernel.of(subject.mesh)
+
+
+def _curvature(subject: DescriptorInput) -> Descriptor:
+    from caesura.core.descriptors.curvature import Curvature  # noqa: PLC0415
+
+    return Curvature.of(subject.mesh, subject.parameters.curvature)
+
+
+DESCRIPTORS: dict[str, Callable[[DescriptorInput], Descriptor]] = {
+    "strain": lambda subject: subject.strain,
+    "geodesic": _geodesic,
+    "heat-kernel": _heat_kernel,
+    "curvature": _curvature,
+}

@@ -1,1 +1,0 @@
-"""Which triangles exceed which level of strain in each frame, a bit each; and how many do so at two times at once."""

@@ -1,1 +1,0 @@
-"""The codec of attributes: any elements, byte by byte."""

@@ -1,1 +1,0 @@
-"""Attributes compressed as meshoptimizer does."""

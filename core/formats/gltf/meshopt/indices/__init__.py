@@ -1,1 +1,0 @@
-"""The codecs of triangles and of other indices."""

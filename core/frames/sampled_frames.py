@@ -1,0 +1,40 @@
+"""Frames of vertices, drawn and checked: nothing that is not a number goes further."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from jaxtyping import Float32, Int
+
+from caesura.core.animation import Animation
+from caesura.core.errors import InvalidModel
+from caesura.core.frames.blocks import Block
+from caesura.core.kernels.descriptors import REACH, largest_bits
+
+
+def read_vertices(animation: Animation, block: Block) -> Float32[np.ndarray, "frames V 3"]:
+    """Frames [start, stop). Raises `InvalidModel` with frame and vertex of a NaN, an infinity or what is above 1e15."""
+    vertices = np.ascontiguousarray(animation.vertices(*block), dtype=np.float32)
+    if not largest_coordinate(vertices) <= REACH:  # NaN is not either
+        _refuse_not_finite(vertices, range(*block))
+    return vertices
+
+
+def read_sampled_frames(animation: Animation, frames: Int[np.ndarray, "n"]) -> Float32[np.ndarray, "n V 3"]:
+    """Some frames, in the order given."""
+    return np.concatenate([read_vertices(animation, (frame, frame + 1)) for frame in frames.tolist()])
+
+
+def largest_coordinate(vertices: Float32[np.ndarray, "frames V 3"]) -> float:
+    """The largest |coordinate|; NaN where there is one."""
+    return float(np.int32(largest_bits(vertices.reshape(-1).view(np.int32))).view(np.float32))
+
+
+def _refuse_not_finite(vertices: Float32[np.ndarray, "frames V 3"], frames: Sequence[int]) -> None:
+    frame, vertex, _ = np.argwhere(~(np.abs(vertices) <= REACH))[0].tolist()
+    value = vertices[frame, vertex][~(np.abs(vertices[frame, vertex]) <= REACH)][0]
+    raise InvalidModel(
+        "non-finite-data",
+        f"At frame {frames[frame]}, vertex {vertex} is at {value}: no place in space. Mend the file and send it again.",
+        frame=frames[frame],
+        vertex=vertex,
+    )

@@ -1,0 +1,1 @@
+"""Takes of a glTF: their channels, the times of their keys, and their values at any time."""

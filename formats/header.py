@@ -1,0 +1,143 @@
+"""What a file says of itself, by its headers alone: what an upload is answered with. Light: no NumPy.
+
+An estimate that costs milliseconds whatever the file's size; the count of the reader holds. A file that cannot be
+opened at all is refused here already.
+"""
+
+import io
+from dataclasses import dataclass
+from typing import BinaryIO
+
+from caesura.core.limits import Limits
+from caesura.formats.bundle.members import ZipMembers, errors_as_zip, refuse_nested_archive
+from caesura.formats.bvh.hierarchy import read_bvh_header
+from caesura.formats.file_type import SIGNATURE_BYTES, Format, detect_file_type
+from caesura.formats.frame_rate import ASSUMED, count_frames, snap_frame_rate
+from caesura.formats.gltf.animation.key_times import KeyTimes
+from caesura.formats.gltf.container import CHUNK, HEADER, glb_length, json_chunk_length, parse_root
+from caesura.formats.gltf.document import check_extensions
+from caesura.formats.gltf.summary import AnimationSummary, estimate_scene_size, summarise_animations
+from caesura.formats.notices import Notices
+from caesura.formats.npz.members import check_shapes, find_members_by_use
+from caesura.formats.zip.archive import Archive
+
+MOST_JSON = 4 * 2**20
+"""Bytes of JSON that are parsed for a header; a glTF with more is answered with unknown counts."""
+
+MOST_FRAMES = 2**53
+"""What a header's number of frames is cut at; the reader refuses it."""
+
+
+@dataclass(frozen=True)
+class HeaderTake:
+    """One take. Its rate is told by its keys, or where they cannot be read by their number: an estimate."""
+
+    index: int
+    name: str
+    duration_seconds: float
+    frames: int
+    frame_rate: float
+
+
+@dataclass(frozen=True)
+class Header:
+    """Format, takes and size of a file; None where the header does not tell."""
+
+    format: Format
+    name: str
+    takes: tuple[HeaderTake, ...] = ()
+    vertices: int | None = None
+    triangles: int | None = None
+
+
+def read_header(file: BinaryIO, name: str, limits: Limits) -> Header:
+    """The header of a seekable file.
+
+    Raises `UnsupportedMedia`, `BrokenContainer`, `LimitExceeded`, or `InvalidModel` for what is already plain.
+    """
+    file.seek(0)
+    kind = detect_file_type(file.read(SIGNATURE_BYTES))
+    if kind == "npz":
+        return _npz_header(file, name, limits)
+    if kind == "zip":
+        return _zip_header(file, name, limits)
+    if kind == "bvh":
+        return _bvh_header(file, name, limits)
+    return _gltf_header(file, kind, name, limits)
+
+
+def _gltf_header(file: BinaryIO, kind: Format, name: str, limits: Limits) -> Header:
+    size = file.seek(0, 2)
+    start, length = _json_of_glb(file, size) if kind == "glb" else (0, size)
+    limits.check("max_json_bytes", length, "Send it as a GLB without data in its JSON")
+    if length > MOST_JSON:
+        return Header(kind, name)
+    file.seek(start)
+    root = parse_root(file.read(length), limits)
+    check_extensions(root)
+    found = summarise_animations(root, KeyTimes(file, start + length, root.value) if kind == "glb" else lambda _: ())
+    limits.check("max_takes", len(found), pointer="/animations")
+    vertices, triangles = estimate_scene_size(root)
+    return Header(kind, name, tuple(_take(place, clip) for place, clip in enumerate(found)), vertices, triangles)
+
+
+def _json_of_glb(file: BinaryIO, size: int) -> tuple[int, int]:
+    file.seek(0)
+    length = glb_length(file.read(HEADER.size), size)
+    start = HEADER.size + CHUNK.size
+    return start, json_chunk_length(file.read(CHUNK.size), length - start)
+
+
+def _take(place: int, clip: AnimationSummary) -> HeaderTake:
+    rate = clip.rate or ASSUMED
+    return HeaderTake(place, clip.name, clip.seconds, int(min(count_frames(clip.seconds, rate), MOST_FRAMES)), rate)
+
+
+def _bvh_header(file: BinaryIO, name: str, limits: Limits) -> Header:
+    file.seek(0)
+    head = read_bvh_header(file.read(2 * MOST_JSON), limits)
+    rate = snap_frame_rate(head.rate) or ASSUMED
+    seconds = max(head.frames - 1, 0) / head.rate
+    frames = int(min(count_frames(seconds, rate), MOST_FRAMES))
+    return Header("bvh", name, (HeaderTake(0, "motion", seconds, frames, rate),), len(head.joints), 0)
+
+
+def _zip_header(file: BinaryIO, name: str, limits: Limits) -> Header:
+    """That of its model, by its first megabytes, or the number of its shapes."""
+    files = ZipMembers(file, limits)
+    if files.are_arrays():
+        return _npz_header(file, name, limits)
+    model = files.model()
+    if model is None:
+        frames = len(files.shapes())
+        return Header("zip", name, (HeaderTake(0, "vertices", (frames - 1) / ASSUMED, frames, ASSUMED),))
+    with errors_as_zip(), files.inflate(model) as inner:
+        data = inner.read(2 * MOST_JSON)
+    if detect_file_type(data[:SIGNATURE_BYTES]) in {"zip", "npz"}:
+        raise refuse_nested_archive(model)
+    found = read_header(_Beginning(data, files.members[model].file_size), name, limits)
+    return Header("zip", name, found.takes, found.vertices, found.triangles)
+
+
+class _Beginning(io.BytesIO):
+    """The beginning of a file of `size` bytes: what lies behind it is as if it could not be read."""
+
+    def __init__(self, data: bytes, size: int) -> None:
+        super().__init__(data)
+        self._size = size
+
+    def seek(self, offset: int, whence: int = io.SEEK_SET) -> int:
+        """Move, the end being that of the whole file."""
+        return super().seek(offset + self._size, io.SEEK_SET) if whence == io.SEEK_END else super().seek(offset, whence)
+
+
+def _npz_header(file: BinaryIO, name: str, limits: Limits) -> Header:
+    archive = Archive(file, limits)
+    members = find_members_by_use(archive, Notices())
+    headers = {what: archive.header(member) for what, member in members.items()}
+    check_shapes(headers, members, limits)
+    frames, vertices, _ = headers["vertices"].shape
+    rate = archive.number(members["frame_rate"]) if "frame_rate" in members else ASSUMED
+    rate = rate if 1 / MOST_FRAMES < rate < MOST_FRAMES else ASSUMED
+    take = HeaderTake(0, "vertices", (frames - 1) / rate, frames, rate)
+    return Header("npz", name, (take,), vertices, headers["triangles"].shape[0])

@@ -1,0 +1,1 @@
+"""Keys of the API: what a key is, and keys from a mounted file."""

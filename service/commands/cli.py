@@ -1,0 +1,35 @@
+"""`caesura`: the command. Each subcommand lives in service/commands."""
+
+import io
+import sys
+
+import click
+
+from caesura.service.commands.demo import demo
+from caesura.service.commands.keys import keys
+from caesura.service.commands.options import with_dashes
+from caesura.service.commands.score import score
+from caesura.service.commands.segment import segment
+from caesura.service.commands.serve import serve
+from caesura.service.commands.submit import submit
+from caesura.service.commands.worker import worker
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "token_normalize_func": with_dashes})
+@click.version_option(package_name="caesura")
+def main() -> None:
+    """Find the motions in a 3D animation: key-frames, labels, cuts and named clips.
+
+    Exit codes: 0 done, 2 wrong usage, 3 bad file, 4 server unreachable or unable.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # a console of few letters must not end a night's batch
+            stream.reconfigure(errors="backslashreplace")
+
+
+for command in (serve, worker, keys, segment, submit, score, demo):
+    main.add_command(command)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""Processes: the supervisor of a machine, the children it watches, the web process."""

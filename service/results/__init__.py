@@ -1,0 +1,1 @@
+"""A finished result in every form: formats, text, byte ranges, revisions."""

@@ -1,0 +1,1 @@
+"""What is asked of an animation, its submission, and how far it is."""

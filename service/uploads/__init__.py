@@ -1,0 +1,1 @@
+"""Files on their way in: received, spooled, registered, where there is room."""

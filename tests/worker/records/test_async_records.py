@@ -1,0 +1,123 @@
+"""How the web process waits: woken at once, and never for longer than asked."""
+
+import asyncio
+import time
+from contextlib import aclosing
+
+from caesura.worker.records.async_records import AsyncRecords
+
+
+def reading(idle, use):
+    async def main():
+        records = AsyncRecords(idle.settings.redis_location)
+        try:
+            return await use(records)
+        finally:
+            await records.close()
+
+    return asyncio.run(main())
+
+
+def test_waiting_is_woken_by_the_change(idle, take):
+    """A cancelled job is told at once, not at the next look."""
+    record = idle.submit(idle.upload(take))
+
+    async def use(records):
+        waiting = asyncio.create_task(records.ended(record.id))
+        await asyncio.sleep(0.2)
+        await asyncio.to_thread(idle.jobs.cancel, record.id)
+        began = time.monotonic()
+        return await waiting, time.monotonic() - began
+
+    told, seconds = reading(idle, use)
+    assert told.status == "cancelled"
+    assert seconds < 1
+
+
+def test_waiting_sleeps_through_progress(idle, take):
+    """What runs tells five times a second how far it is; who waits for its end reads twice: at first, and then."""
+    record = idle.submit(idle.upload(take))
+
+    async def use(records):
+        waiting = asyncio.create_task(records.ended(record.id))
+        await asyncio.sleep(0.2)
+        before = (await records.redis.info("commandstats"))["cmdstat_get"]["calls"]
+        idle.records.attempts.begin(record.id, record.token)
+        for number in range(9):
+            idle.records.attempts.change(record.id, record.token, stage="strain", fraction=number / 10)
+        idle.records.attempts.fail(record.id, record.token, {"kind": "input", "code": "no-motion", "detail": ""})
+        told = await waiting
+        return told.status, (await records.redis.info("commandstats"))["cmdstat_get"]["calls"] - before
+
+    of_changes = 1 + 9 + 1
+    assert reading(idle, use) == ("failed", of_changes + 1)
+
+
+def test_all_who_wait_listen_on_one_connection(idle, take):
+    """However many there are; who leaves leaves the channel too."""
+    waited = [idle.submit(idle.upload(take)) for _ in range(5)]
+
+    async def use(records):
+        waiting = [asyncio.create_task(records.ended(record.id)) for record in waited * 4]
+        await asyncio.sleep(0.3)
+        heard = await records.redis.pubsub_channels("caesura:changed:?*")
+        listening = [one for one in await records.redis.client_list() if int(one["sub"])]
+        for record in waited:
+            await asyncio.to_thread(idle.jobs.cancel, record.id)
+        told = await asyncio.gather(*waiting)
+        late = asyncio.create_task(records.ended("nobody's"))
+        await late
+        await asyncio.sleep(0.2)
+        left = await records.redis.pubsub_channels("caesura:changed:?*")
+        return len(heard), len(listening), {record.status for record in told}, len(left)
+
+    heard, listening, told, left = reading(idle, use)
+    assert (heard, listening, told) == (5, 1, {"cancelled"})
+    assert left <= 1
+
+
+def test_waiting_outlives_a_broken_connection(idle, take):
+    """Every connection is cut, also the one that listens: the change after it is heard all the same."""
+    record = idle.submit(idle.upload(take))
+
+    async def use(records):
+        waiting = asyncio.create_task(records.ended(record.id))
+        await asyncio.sleep(0.2)
+        for one in await records.redis.client_list():
+            if int(one["sub"]):
+                await records.redis.client_kill_filter(_id=one["id"])
+        await asyncio.sleep(0.2)
+        await asyncio.to_thread(idle.jobs.cancel, record.id)
+        return await asyncio.wait_for(waiting, 10)
+
+    assert reading(idle, use).status == "cancelled"
+
+
+def test_changes_end_with_the_record(idle, take):
+    """Every change is told, and None after the last."""
+    record = idle.submit(idle.upload(take))
+
+    async def use(records):
+        told = []
+        async with aclosing(records.changes(record.id)) as changes:
+            async for seen in changes:
+                told.append(seen and seen.status)
+                if seen is None:
+                    break
+                await asyncio.to_thread(idle.jobs.delete, record.id)
+        return told
+
+    told = reading(idle, use)
+    assert (told[0], told[-1]) == ("queued", None)
+
+
+def test_lists_are_newest_first(idle, take):
+    """And go on before the last one seen."""
+    uploaded = [idle.upload(take) for _ in range(3)]
+    newest = sorted(uploaded, key=lambda record: record.created)[::-1]
+
+    async def use(records):
+        first = await records.animations("", 2)
+        return first, await records.animations("", 2, before=first[-1].created)
+
+    assert reading(idle, use) == (newest[:2], newest[2:])

@@ -1,0 +1,1 @@
+"""A Redis-compatible server of our own: the server, and the folder that it serves."""

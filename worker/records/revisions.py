@@ -1,0 +1,74 @@
+"""Revisions of a result: kept beside it, in one MULTI with the number of the newest, and gone when it goes."""
+
+import time
+from collections.abc import Sequence
+
+from pydantic import TypeAdapter
+from redis.client import Pipeline
+
+from caesura.core.revision import Edit
+from caesura.worker.records import Records, redis_keys
+from caesura.worker.records.async_records import AsyncRecords
+from caesura.worker.records.schema import RevisionRecord, SegmentationRecord
+
+MOST_REVISIONS = 1000
+
+EDITS: TypeAdapter[tuple[Edit, ...]] = TypeAdapter(tuple[Edit, ...])
+
+
+def add_revision(
+    records: Records, identifier: str, expected: int | None, note: str, edits: Sequence[Edit]
+) -> RevisionRecord | None:
+    """Keep a revision after number `expected`, which must be the newest one; None: after whichever is.
+
+    Answers None, and keeps nothing, where another is the newest by now, where there are as many as may be, or
+    where there is no result. Of two editors who both saw the same revision one is kept.
+    """
+    now = time.time()
+
+    def change(record: SegmentationRecord) -> SegmentationRecord | None:
+        fits = expected is None or record.revision == expected
+        wanted = record.status == "done" and fits and record.revision < MOST_REVISIONS
+        return record.with_(revision=record.revision + 1) if wanted else None
+
+    def also(pipe: Pipeline, record: SegmentationRecord) -> None:
+        head = RevisionRecord(number=record.revision, created=now, note=note)
+        pipe.rpush(redis_keys.revisions_key(identifier), head.model_dump_json())
+        pipe.hset(
+            redis_keys.revised_key(identifier),
+            str(record.revision),
+            EDITS.dump_json(tuple(edits), exclude_defaults=True),
+        )
+
+    after = records.segmentations.change(identifier, change, also)
+    return None if after is None else RevisionRecord(number=after.revision, created=now, note=note)
+
+
+def edits_of(records: Records, identifier: str, number: int) -> tuple[Edit, ...] | None:
+    """The segments of a revision, or None where there is none."""
+    return _read(records.redis.hget(redis_keys.revised_key(identifier), str(number)))
+
+
+class Revisions:
+    """The same as the web process reads them."""
+
+    def __init__(self, records: AsyncRecords) -> None:
+        self._redis = records.redis
+
+    async def all(self, identifier: str) -> list[RevisionRecord]:
+        """Every revision, oldest first."""
+        stored = await self._redis.lrange(redis_keys.revisions_key(identifier), 0, -1)
+        return [RevisionRecord.model_validate_json(one) for one in stored]
+
+    async def one(self, identifier: str, number: int) -> tuple[RevisionRecord, tuple[Edit, ...]] | None:
+        """One revision with its segments, or None where there is none."""
+        async with self._redis.pipeline() as pipe:
+            pipe.lindex(redis_keys.revisions_key(identifier), number - 1)
+            pipe.hget(redis_keys.revised_key(identifier), str(number))
+            head, edits = await pipe.execute()
+        record, segments = RevisionRecord.read(head), _read(edits)
+        return None if record is None or segments is None else (record, segments)
+
+
+def _read(stored: bytes | str | None) -> tuple[Edit, ...] | None:
+    return None if stored is None else EDITS.validate_json(stored)
