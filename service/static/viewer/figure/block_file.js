@@ -1,4 +1,4 @@
-// A block file read by Range (core/formats/playback/block_file.py says how it is laid out).
+// A block file read by Range (formats/playback/block_file.py says how it is laid out).
 
 const FIRST_BYTES = 65536;
 const KEPT_BYTES = 96 * 2 ** 20;
