@@ -62,7 +62,7 @@ def _watch(
     web = ChildProcess(
         "the web process", ["caesura.service.process.web", "--socket", str(number)], environment, (number,)
     )
-    workers = ChildProcess("the worker pool", ["worker"], environment)
+    workers = ChildProcess("the worker pool", ["caesura.worker"], environment)
     ready = False
     try:
         while not stopping:

@@ -14,14 +14,14 @@ held = bytearray(32 * 2**20)
 try:
     more = bytearray(64 * 2**20)
 except MemoryError:
-    allowance.grant(64 * 2**20)
+    allowance.extend(64 * 2**20)
     more = bytearray(64 * 2**20)
     print("granted")
 """
 TIME = """
 from caesura.worker.process import job_quota as allowance
 allowance.GRACE_SECONDS = 0
-allowance.Allowance(2**30, 1)
+allowance.JobQuota(2**30, 1)
 while True:
     pass
 """
