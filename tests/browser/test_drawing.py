@@ -13,6 +13,7 @@ from tests.browser.journeys import opened, saved
 pytestmark = pytest.mark.timeout(240)
 
 FRAME = 20
+ANTIALIASED = "document.querySelector('#figure').getContext('webgl2').getContextAttributes().antialias"
 
 
 def to_frame(page: Page, frame: int) -> None:
@@ -61,8 +62,9 @@ def test_a_cut_is_drawn_twice(page: Page, smooth: Path) -> None:
 
 
 def test_a_body_is_coloured_by_its_motion_or_plain(page: Page, smooth: Path) -> None:
-    """A motion's colour is not that of clay, and the body stays where it is."""
+    """A motion's colour is not that of clay, and the body stays where it is. Software draws without anti-aliasing."""
     opened(page, smooth)
+    assert not page.evaluate(ANTIALIASED)
     to_frame(page, FRAME)
     pictures = []
     for look in ("Motion", "Plain"):

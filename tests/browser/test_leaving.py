@@ -60,7 +60,7 @@ def test_edits_that_cannot_be_kept_are_not_left_by_mistake(result: Page) -> None
     result.locator("#flag-discard").click()
     expect(result.locator("#kept-word")).to_contain_text("Not saved")
     address = result.url.split("#")[0]
-    result.derived("dialog", lambda dialog: dialog.close())
+    result.once("dialog", lambda dialog: dialog.dismiss())
     result.evaluate("history.pushState(null, '', '/'); dispatchEvent(new PopStateEvent('popstate'))")
     result.wait_for_url(f"{address}**")
     expect(result.locator("#flag-discard")).to_have_attribute("aria-pressed", "true")

@@ -25,7 +25,9 @@ def test_every_stage_has_words(answer, checkout: Path) -> None:
         "import { STAGES } from 'VIEWER/start/progress.js'; console.log(JSON.stringify(Object.keys(STAGES)));"
     )
     sources = [
-        path.read_text(encoding="utf-8") for part in ("core", "worker") for path in checkout.glob(f"{part}/**/*.py")
+        path.read_text(encoding="utf-8")
+        for part in ("core", "formats", "worker")
+        for path in checkout.glob(f"{part}/**/*.py")
     ]
     told = {name for text in sources for name in re.findall(r'\b(?:progress\(|stage=)"([\w -]+)"', text)}
     assert told | {"upload", "queued"} == {*known}

@@ -20,7 +20,7 @@ import { addTabs } from './roving_focus.js';
 import { addPlayerControls, addViewControls } from './timeline/navigation.js';
 
 let shown = null; // the Result on screen
-let task = new AbortController(); // what the page is busy with; a newer one ends it
+let task = new AbortController(); // the current task; a newer one ends it
 
 function begin() {
   task.abort();
@@ -28,7 +28,7 @@ function begin() {
   return task.signal;
 }
 
-/** Wait for something: answers the signal that ends it. `cancel()` is what the button does beside leaving. */
+/** Show the waiting view. Answers the signal that ends the wait. `cancel()` is what the button does beside leaving. */
 function wait(name, cancel = async () => {}) {
   const signal = begin();
   $('subject').textContent = '';
@@ -42,7 +42,7 @@ function onCancel(cancel) {
   $('waiting-cancel').onclick = () => cancel().finally(() => { history.pushState(null, '', '/'); route(); });
 }
 
-/** Files a person gave: send them, have them cut, show the result. */
+/** Upload files, have them segmented, show the result. */
 async function openFiles(files) {
   if (!(await leave())) return;
   const { name } = files[0];
@@ -54,7 +54,7 @@ async function openFiles(files) {
   } catch (problem) { showProblem(problem, name, () => openFiles(files)); }
 }
 
-/** An animation seen before: its newest segmentation that is there or on its way, else one more. */
+/** Open an animation of before: its newest segmentation that is done or on its way, else a new one. */
 async function openAnimation(animation) {
   const { id, name } = animation;
   const signal = wait(name);
@@ -71,16 +71,16 @@ async function openSegmentation({ id }, signal) {
   await follow(id, signal);
 }
 
-/** A segmentation in any state: wait until it is over, then show it. */
+/** Wait until a segmentation is done, then show it. */
 async function follow(id, signal) {
   const status = await waitUntilDone(id, (now) => {
     if (now.status === 'running') import('./figure/scene.js'); // needed soon: fetched while we wait
     if (now.name) $('waiting-name').textContent = now.name;
-    onCancel(now.status === 'done' ? async () => {} : () => api.cancel(id).catch(() => {})); // to cancel what is done is to delete it
+    onCancel(now.status === 'done' ? async () => {} : () => api.cancel(id).catch(() => {})); // to cancel a finished segmentation would delete it
     showStatus(now);
   }, signal);
-  const viewer = api.viewer(id); // asked for beside the result, as the figure takes longest
-  viewer.catch(() => {}); // said where it is shown
+  const viewer = api.viewer(id); // fetched beside the result, as the figure takes longest
+  viewer.catch(() => {}); // the figure panel shows the problem
   const result = await api.result(id, revisionInAddress() ?? status.revision);
   if (!signal.aborted) show(result, status, viewer);
 }
@@ -101,14 +101,14 @@ function show(result, status, viewer) {
   changed();
 }
 
-/** Whether the result on screen may be left: open edits are kept first. */
+/** Whether the page may leave the result on screen: open edits are saved first. */
 async function leave() {
   shown?.playhead.toggle(false);
   if (!shown?.editor.saving.open) return true;
   return shown.editor.saving.flush().then(() => true, () => confirm('The service could not save your last edits. Leave anyway?'));
 }
 
-/** What the address asks for. */
+/** Show what the address asks for. */
 async function route() {
   const id = resultInAddress();
   if (id && id === onScreen()?.document.id) return;

@@ -13,10 +13,10 @@ export function make(tag, properties = {}, ...children) {
   return element;
 }
 
-/** Words for who listens, between those for who looks. */
+/** Words that only a screen reader reads. */
 export const screenReaderText = (text) => make('span', { className: 'unseen' }, text);
 
-/** Say a sentence to who listens instead of looking. */
+/** Have a screen reader say a sentence. */
 export const announce = (sentence) => { $('announce').textContent = sentence; };
 
 /** A colour of the style sheet, for canvases. */

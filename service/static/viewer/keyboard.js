@@ -1,4 +1,4 @@
-// The page by keyboard alone, and the list of its keys on `?`. A key that types into a field is the field's.
+// The keys of the page, and the list of them on `?`. A key that types into a field belongs to the field.
 
 import { $, make } from './dom.js';
 import { goToNeighbour } from './timeline/navigation.js';
@@ -67,7 +67,7 @@ export function addKeyboard(shown) {
     event.preventDefault();
     action(event);
   });
-  addEventListener('keyup', (event) => { // when some browsers press a button
+  addEventListener('keyup', (event) => { // some browsers press a button then
     if (event.key === ' ' && shown() && !belongsToControl(event)) event.preventDefault();
   });
 }
@@ -87,7 +87,7 @@ function addHelp(table) {
 /** Whether a key is for the control that has the focus: it types, chooses or presses there. */
 function belongsToControl({ key, target }) {
   if (target.matches('input:not([type=radio]):not([type=checkbox]), textarea')) return true;
-  if (key === ' ' && target === clicked) return false; // who clicked a button means by the next Space to play
+  if (key === ' ' && target === clicked) return false; // after a click on a button, Space plays
   if (target.matches('select')) return true;
   if (key.startsWith('Arrow')) return target.matches('input[type=radio]');
   return [' ', 'Enter'].includes(key) && target.matches('button, a, label, summary, input');

@@ -1,4 +1,4 @@
-// What the page remembers on this machine. A browser that keeps nothing is no fault: then nothing is remembered.
+// Values that this browser keeps for the page. A browser that stores nothing is no fault: the page then uses the defaults.
 
 export function stored(key, otherwise = null) {
   try {

@@ -1,4 +1,4 @@
-// A result on screen: the curve, the timeline, the lists and the figure, tied together by one playhead and one visible range.
+// A result on screen: figure, curve, segments and lists, tied together by one playhead and one visible range.
 
 import { Playhead } from './timeline/playhead.js';
 import { showParameters } from './panels/segmentation_form.js';
@@ -20,7 +20,7 @@ import { goToSegment, repeatSegment } from './timeline/navigation.js';
 export class Result {
   #closing = new AbortController(); #pointer; #segment = -1; #list; #onChange; #editing = null;
 
-  /** Lay out `document` for the first time; `status` is the service's word of it. `onChange()` hears of every edit. */
+  /** Show `document` for the first time; `status` is its status document. `onChange()` is called after every edit. */
   constructor(document, status, onChange) {
     const { signal } = this.#closing;
     this.#onChange = onChange;
@@ -38,7 +38,7 @@ export class Result {
     onFrameNumbering(() => this.#renumber(), signal);
   }
 
-  /** Another cut of the same take: everything but the figure, the moment and the zoom changes. */
+  /** Another cut of the same take: everything but the figure, the playhead and the zoom changes. */
   show(document, status) {
     this.playhead.loop = null;
     this.#setDocument(document);
@@ -57,7 +57,7 @@ export class Result {
     this.#showMoment();
   }
 
-  /** A cut was selected, or let go of (-1). */
+  /** A cut is selected, or none (-1). */
   selected(cut) {
     document.body.classList.toggle('cut-selected', cut >= 0);
     this.#showMoment();
@@ -72,16 +72,16 @@ export class Result {
     this.#closing.abort();
   }
 
-  /** Whether the page shows another by now. */
+  /** Whether the page shows another result by now. */
   get closed() { return this.#closing.signal.aborted; }
 
-  /** The segment a frame is in, by its place. */
+  /** The index of the segment that a frame is in. */
   segmentIndexAt(frame) { return segmentIndexAt(this.document.segments, frame); }
 
   /** Seconds of a frame on the file's own clock. */
   secondsAt(frame) { return this.document.source.start_seconds + frame / this.document.frame_rate; }
 
-  /** Seconds of the moment. */
+  /** Seconds of the current frame. */
   get seconds() { return this.secondsAt(this.playhead.frame); }
 
   #setDocument(document) {
@@ -89,7 +89,7 @@ export class Result {
     this.#segment = -1;
   }
 
-  /** Begin to edit a document; what was worked on before is over. */
+  /** Begin to edit a document; editing the one before ends. */
   #startEditing(document, status) {
     this.status = status;
     this.#editing?.abort();
@@ -106,7 +106,7 @@ export class Result {
     this.#onChange();
   }
 
-  /** Numbers are counted the other way. */
+  /** Frames are counted from the other number. */
   #renumber() {
     this.#list.show(this.document);
     this.curve.refresh();
@@ -119,7 +119,7 @@ export class Result {
     return cut >= 0 && !this.playhead.playing ? this.document.segments.slice(cut, cut + 2) : null;
   }
 
-  /** What the figure shows: the moment, or the two sides of the selected cut. */
+  /** The poses of the figure: the current one, or those on both sides of the selected cut. */
   #poses() {
     const { playhead } = this;
     if (this.#pair) {
@@ -131,10 +131,10 @@ export class Result {
     return [{ position: playhead.playing ? playhead.position : playhead.frame, motion }];
   }
 
-  /** Whether the moment has gone elsewhere than the selected cut. Playing around it is not leaving it. */
+  /** Whether the playhead has left the selected cut. Playing around a cut does not leave it. */
   #hasLeftCut() { return this.#pair !== null && this.playhead.frame !== this.#pair[0].end; }
 
-  /** The playhead has moved, or what is around it has changed. */
+  /** Show the current frame: the playhead has moved, or what is around it has changed. */
   #showMoment() {
     const { playhead } = this;
     const index = this.segmentIndexAt(playhead.frame);

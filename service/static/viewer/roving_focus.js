@@ -1,4 +1,4 @@
-// Lists and tabs that are one stop of the Tab key: arrows move within (the roving tabindex of the ARIA authoring guide).
+// Lists and tabs that the Tab key stops at once: the arrows move within (the roving tabindex of the ARIA authoring guide).
 
 /** Wire `container`: of the elements `selector` finds, one can be tabbed to; arrows, Home and End move it. */
 export function addRovingFocus(container, selector, { horizontal = false } = {}) {

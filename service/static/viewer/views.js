@@ -3,13 +3,13 @@
 import { Problem } from './service/api.js';
 import { $ } from './dom.js';
 
-/** Show one of them. */
+/** Show a view. */
 export function showView(name, title = '') {
   document.body.dataset.view = name;
   document.title = title ? `${title} · Caesura` : 'Caesura';
 }
 
-/** Say what went wrong, and with what. `again()` tries it once more, where what went wrong may pass. */
+/** Show a problem. `again()` tries once more; it is offered if the problem may pass. */
 export function showProblem(problem, name, again) {
   if (problem.name === 'AbortError') return;
   if (!(problem instanceof Problem)) console.error(problem);
@@ -21,7 +21,7 @@ export function showProblem(problem, name, again) {
   showView('refused', 'Problem');
 }
 
-const REST = 250; // ms that the moment rests before it is written down: browsers refuse to be told sixty times a second
+const REST = 250; // ms that the playhead rests before its frame goes into the address: browsers refuse sixty changes a second
 
 export const resultInAddress = () => /^\/view\/([^/]+)$/.exec(location.pathname)?.[1];
 export const revisionInAddress = () => numberAfter(location.search, /[?&]revision=(\d+)/);
@@ -34,7 +34,7 @@ function numberAfter(text, pattern) {
 
 let resting;
 
-/** Keep the moment in the address, so that a link opens there. */
+/** Keep the frame in the address, so that a link opens there. */
 export function rememberFrame(playhead) {
   clearTimeout(resting);
   if (playhead.playing) return;

@@ -1,4 +1,4 @@
-// The row of editing tools: it shows the segment at the moment, the selected cut, and whether all is kept.
+// The toolbar of editing: the current segment, the selected cut, and whether the edits are saved.
 
 import { frameNumber, onFrameNumbering, frameText, parseFrame } from '../number_format.js';
 import { $, make } from '../dom.js';
@@ -7,7 +7,7 @@ import { motionsOf } from './segment_edits.js';
 
 const NEW = 'new';
 
-/** Wire the row once. `editor()` is the one at work. Answers a function that shows its state. */
+/** Wire the toolbar once. `editor()` is the current editor. Answers a function that shows its state. */
 export function addEditToolbar(editor, { loadTheirs }) {
   const on = (id, event, action) => $(id).addEventListener(event, action);
   const name = $('motion-name');
@@ -54,10 +54,10 @@ function showSegment(editor, evenFocused) {
   if (evenFocused || name !== document.activeElement) name.value = segment.name;
   name.style.setProperty('--motion', motionColour(segment.motion));
   const motions = motionsOf(editor.segments);
-  const said = motions.map((motion) => motion.name).join('\n');
+  const names = motions.map((motion) => motion.name).join('\n');
   const select = $('motion-of');
-  if (select.dataset.said !== said) {
-    select.dataset.said = said;
+  if (select.dataset.names !== names) {
+    select.dataset.names = names;
     select.replaceChildren(...motions.map((motion) => make('option', { value: motion.motion }, `is ${motion.name}`)),
       make('option', { value: NEW }, 'is a new motion'));
   }
@@ -84,12 +84,12 @@ const WORDS = {
   stale: (saving) => `Not saved: somebody else saved revision ${saving.theirs} first.`,
 };
 
-/** An honest word about where the edits are, and ways on where they are stuck. */
+/** Say whether the edits are saved, and offer what to do if they are not. */
 function showSavingState(editor, loadTheirs) {
   const { saving } = editor;
   const words = WORDS[saving.kind](saving);
   $('kept').dataset.kind = saving.kind;
-  if ($('kept-word').textContent === words) return; // a status that is set again is read out again
+  if ($('kept-word').textContent === words) return; // a screen reader reads a status again when it is set again
   $('kept-word').textContent = words;
   const way = (text, action) => make('button', { type: 'button', onclick: action }, text);
   const ways = {

@@ -1,4 +1,4 @@
-// Editing a result: what is selected, what was done, and that it is kept. Every edit goes through `#do`.
+// The editor of a result: the selected cut, the edits, undo, and saving. Every edit goes through `#apply`.
 
 import { frameText } from '../number_format.js';
 import { announce } from '../dom.js';
@@ -9,7 +9,7 @@ import * as edits from './segment_edits.js';
 export class Editor {
   #history; #result; #listener; #drag = 0;
 
-  /** `result` shows; `newest` is the newest revision there is; `onChange()` hears of edits, selection and saving. */
+  /** `newest` is the number of the newest revision. `onChange()` is called after an edit, a selection, and when saving changes. */
   constructor(result, { newest, onChange }) {
     const { id, revision = 0, segments } = result.document;
     this.cut = -1;
@@ -25,10 +25,10 @@ export class Editor {
 
   get canRedo() { return this.#history.canRedo; }
 
-  /** The segment that the moment is in. */
+  /** The index of the segment that the playhead is in. */
   get currentIndex() { return edits.segmentIndexAt(this.segments, this.#result.playhead.frame); }
 
-  /** Select a cut (-1: none), and bring the moment to it. */
+  /** Select a cut (-1: none), and move the playhead to it. */
   select(cut) {
     const chosen = cut >= 0 && cut < this.segments.length - 1 ? cut : -1;
     if (chosen === this.cut) return;
@@ -39,19 +39,19 @@ export class Editor {
     this.#listener();
   }
 
-  /** The cut before or after the moment, or the selected one. */
+  /** Select the cut before or after the playhead, or before or after the selected cut. */
   selectNext(by) {
     const from = this.cut >= 0 ? this.cut + by : this.currentIndex - (by < 0 ? 1 : 0);
     this.select(Math.max(0, Math.min(this.segments.length - 2, from)));
   }
 
-  /** A drag begins: all its steps are one edit. */
+  /** Begin to drag a cut: all steps of the drag are one edit. */
   beginDrag(cut) {
     this.#drag += 1;
     this.select(cut);
   }
 
-  /** Where the drag has come to; shown at once, kept when it is over. */
+  /** Move the dragged cut; the page shows it at once, `endDrag` saves it. */
   dragTo(frame) { this.#apply(edits.moveCut(this.segments, this.cut, frame), { key: `drag ${this.#drag}`, keep: false }); this.#goToCut(); }
 
   endDrag() {
@@ -60,7 +60,7 @@ export class Editor {
     this.#announceCut();
   }
 
-  /** Move the selected cut to a frame, or by some. */
+  /** Move the selected cut to a frame. */
   moveTo(frame) {
     if (this.cut < 0) return;
     this.#apply(edits.moveCut(this.segments, this.cut, frame), { key: `nudge ${this.cut}`, note: 'moved a cut' });
@@ -92,10 +92,10 @@ export class Editor {
     if (this.#apply(edits.renameMotion(this.segments, motion, name), { note })) announce(`${sentence(note)}.`);
   }
 
-  /** Make the segment here another motion; null: one of its own. */
+  /** Give the current segment another motion; null: a new one. */
   assignMotion(motion) { this.#apply(edits.assignMotion(this.segments, this.currentIndex, motion), { note: 'changed the motion of a segment' }); }
 
-  /** Set or take away `loop` or `discard` of the segment here. */
+  /** Set or clear `loop` or `discard` of the current segment. */
   toggleFlag(name) {
     const on = !this.segments[this.currentIndex][name];
     const note = { loop: ['took a loop back', 'marked a loop'], discard: ['took a segment back', 'discarded a segment'] }[name][Number(on)];

@@ -1,4 +1,4 @@
-// Edits on their way to the service: one revision for what was done in one go, and an honest word about where they are.
+// Saving edits: the service gets one revision for all edits of a moment, and the page knows which edits are saved.
 
 import * as api from '../service/api.js';
 import { sameSegments } from './segment_edits.js';
@@ -7,8 +7,8 @@ const QUIET = 600; // ms without another edit before they are sent
 const LONGEST_NOTE = 200;
 
 /**
- * `kind` is `saved` (nothing is open), `waiting` (edits not sent yet), `saving`, `failed` (`why` says it) or `stale`
- * (somebody else has made revision `theirs` meanwhile); `onState()` hears whenever it changes.
+ * `kind` is `saved` (no edit is open), `waiting` (edits are not sent yet), `saving`, `failed` (`why` gives the reason) or
+ * `stale` (somebody else has saved revision `theirs` since). `onState()` is called whenever it changes.
  */
 export class RevisionSaving {
   #id; #onState; #kept; #wanted = null; #notes = []; #timer = 0; #sending = null;
@@ -21,10 +21,10 @@ export class RevisionSaving {
     this.#onState = onState;
   }
 
-  /** Whether something would be lost if the page went now. */
+  /** Whether edits are lost if the page closes now. */
   get open() { return this.kind !== 'saved'; }
 
-  /** Keep these, in a moment; `note` says what was done. What is kept already needs no revision. */
+  /** Save these segments soon; `note` says what was edited. Segments that are saved already make no revision. */
   schedule(segments, note) {
     clearTimeout(this.#timer);
     this.#wanted = segments;
@@ -35,14 +35,14 @@ export class RevisionSaving {
     this.#timer = setTimeout(() => this.flush().catch(() => {}), QUIET);
   }
 
-  /** Send what is open now. Resolves once it is kept; throws where it cannot be. */
+  /** Send open edits now. Resolves once they are saved; throws if the service cannot save them. */
   flush() {
     clearTimeout(this.#timer);
     this.#sending ||= this.#send().finally(() => { this.#sending = null; });
     return this.#sending;
   }
 
-  /** Somebody else saved meanwhile, and these are to stand all the same: on top of theirs. */
+  /** Save these edits on top of the revision that somebody else has saved. */
   overwrite() {
     this.newest = this.theirs;
     return this.flush();

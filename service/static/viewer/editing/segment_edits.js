@@ -1,7 +1,7 @@
-// What a person may do to a list of segments. Pure: every edit answers a new list, or the same one where nothing changes.
+// Edits of a list of segments, as pure functions: each answers a new list, or the same one if nothing changes.
 //
-// A list tiles the take: segment i+1 starts where i ends. Cut i is where segment i ends; the last has none. The
-// confidence of a segment is that of its cut: null once a person has placed it. `repeats` hold until an end moves.
+// The segments tile the take: segment i+1 starts where segment i ends. Cut i is the end of segment i; the last segment has no
+// cut. The confidence of a segment is that of its cut; it is null once a person has placed the cut. An edit of an end drops `repeats`.
 
 const LETTERS = 26;
 
@@ -12,7 +12,7 @@ function renumbered(segments) {
   return segments.map((segment) => ({ ...segment, motion: numbers.get(segment.motion) }));
 }
 
-/** Put cut `index` at `frame`, as far as its neighbours leave each side a frame. */
+/** Move cut `index` to `frame`; both segments keep at least one frame. */
 export function moveCut(segments, index, frame) {
   const before = segments[index];
   const after = segments[index + 1];
@@ -22,7 +22,7 @@ export function moveCut(segments, index, frame) {
   return splice(segments, index, 2, { ...before, end: place, confidence: null, repeats: [] }, { ...after, start: place, repeats: [] });
 }
 
-/** Take cut `index` away. What remains is the motion before it, or the one after it. */
+/** Remove cut `index`. The merged segment has the motion before the cut, or the one after it. */
 export function mergeCut(segments, index, after = false) {
   const [left, right] = [segments[index], segments[index + 1]];
   if (!right) return segments;
@@ -65,7 +65,7 @@ export function setFlag(segments, index, flag, on) {
   return splice(segments, index, 1, { ...segments[index], [flag]: on });
 }
 
-/** A result as it reads with other segments: key-frames are of the motion they are in now. */
+/** The result with other segments: each key-frame belongs to the motion that it is in now. */
 export function withSegments(document, segments) {
   let place = 0;
   const keys = document.key_frames.map((key) => {
@@ -93,12 +93,12 @@ export function motionsOf(segments) {
   return [...seen.values()];
 }
 
-/** Whether two lists say the same, of what is kept by the service. */
+/** Whether two lists are the same in all that a revision stores. */
 export const sameSegments = (one, other) => one === other || (one.length === other.length && one.every((segment, i) =>
   segment.end === other[i].end && segment.name === other[i].name && segment.motion === other[i].motion
   && Boolean(segment.loop) === Boolean(other[i].loop) && Boolean(segment.discard) === Boolean(other[i].discard)));
 
-/** The first of A, B, …, Z, AA, … that no motion is called. */
+/** The first of A, B, …, Z, AA, … that is not the name of a motion. */
 function freeName(segments) {
   const taken = new Set(segments.map((segment) => segment.name));
   for (let number = 0; ; number++) {
@@ -112,5 +112,5 @@ const splice = (segments, index, count, ...others) => [...segments.slice(0, inde
 
 const DOUBT = 0.5;
 
-/** Whether the cut that ends a segment is rather wrong than right. The last segment ends with the take, for certain. */
+/** Whether the cut that ends a segment is more likely wrong than right. The end of the last segment is certain. */
 export const isDoubtful = ({ confidence }) => confidence !== null && confidence < DOUBT;

@@ -1,4 +1,4 @@
-// A block file read by Range (core/formats/playback/block_file.py says how it is laid out).
+// A block file read by Range (formats/playback/block_file.py says how it is laid out).
 
 const FIRST_BYTES = 65536;
 const KEPT_BYTES = 96 * 2 ** 20;
@@ -37,7 +37,7 @@ export class BlockFile {
     return new Type(stop <= this.#first.byteLength ? this.#first.slice(offset, stop) : await range(this.#url, offset, stop));
   }
 
-  /** The values of a frame if its block is here, else undefined (and the block is asked for). */
+  /** The values of a frame if its block is fetched; else undefined, and the block is fetched. */
   peek(frame) {
     const index = Math.floor(frame / this.perBlock);
     const block = this.#blocks.get(index);
@@ -47,7 +47,7 @@ export class BlockFile {
     return block.subarray(within * size, (within + 1) * size);
   }
 
-  /** Ask for the block after the one of `frame`, so that playing never waits for it. */
+  /** Fetch the block after the one of `frame`, so that playback does not wait for it. */
   prefetch(frame) {
     const next = frame + this.perBlock;
     if (next < this.header.frames && !this.has(next)) this.fetch(next).catch(() => {});
@@ -55,7 +55,7 @@ export class BlockFile {
 
   has(frame) { return this.#blocks.has(Math.floor(frame / this.perBlock)); }
 
-  /** Fetch the block of a frame; many askers, one request. */
+  /** Fetch the block of a frame; several calls make one request. */
   fetch(frame) {
     const index = Math.floor(frame / this.perBlock);
     if (this.#blocks.has(index)) return Promise.resolve();

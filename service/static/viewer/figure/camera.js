@@ -1,4 +1,4 @@
-// The eye on the figure: where the camera stands, how it turns about the body, and how it goes along with it.
+// The camera: where it stands, how it turns about the body, and how it follows it.
 
 import { PerspectiveCamera, Vector3 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
@@ -8,7 +8,7 @@ const FROM = new Vector3(0.62, 0.26, 0.74).normalize(); // a little from the sid
 export class FigureCamera {
   #controls; #last = new Vector3(); #step = new Vector3();
 
-  /** `onChange()` hears when a person has turned, moved or zoomed. */
+  /** `onChange()` is called when a person turns, moves or zooms. */
   constructor(canvas, onChange) {
     this.camera = new PerspectiveCamera(32, 1, 0.01, 1000);
     this.following = true;
@@ -19,7 +19,7 @@ export class FigureCamera {
 
   get target() { return this.#controls.target; }
 
-  /** Stand back until a sphere about `centre` is seen in a picture of `width` by `height`; the body's middle is at `middle`. */
+  /** Move back until a sphere about `centre` fits a picture of `width` by `height`; the body's middle is at `middle`. */
   frameSphere(centre, radius, { width, height }, middle) {
     const distance = (radius * 1.05) / Math.sin((this.camera.fov * Math.PI) / 360) / Math.min(1, width / height);
     this.camera.position.copy(centre).addScaledVector(FROM, distance);
@@ -33,18 +33,18 @@ export class FigureCamera {
     this.#controls.update();
   }
 
-  /** Look through one of so many pictures side by side, `share`, on a stage of `width` by `height`. */
+  /** Set the view for one of `share` pictures side by side on a canvas of `width` by `height`. */
   setView({ width, height }, share) {
     this.camera.aspect = width / share / height;
-    // Half a stage is narrower, so what is on it is drawn smaller: as much of the figure is seen as on the whole.
+    // A half is narrower, so the figure is drawn smaller there: as much of it is seen as on the whole canvas.
     this.camera.zoom = Math.min(1, this.camera.aspect) / Math.min(1, width / height);
     this.camera.updateProjectionMatrix();
   }
 
-  /** Go along with a body whose middle is now at `middle`. */
+  /** Follow the body, whose middle is now at `middle`. */
   follow(middle) {
     if (this.following) {
-      this.#step.subVectors(middle, this.#last).setY(0); // a jump should look like one
+      this.#step.subVectors(middle, this.#last).setY(0); // the camera stays low when the body jumps
       this.target.add(this.#step);
       this.camera.position.add(this.#step);
     }

@@ -1,14 +1,14 @@
-// What the figure is made of, on its way: asked for as soon as it is known, beside the code that draws it.
+// The download of a figure: its files are asked for as soon as they are known, while the code that draws them loads.
 
 import { BlockFile } from './block_file.js';
 
 /**
- * Ask for what a viewer document names, until `signal` ends it. `model`: the bytes of a glTF, or the parts of a vertex
- * sequence; `strain`: its block file, null where there is none. `onProgress` hears the share of a glTF that is here.
+ * Fetch the files of a viewer document, until `signal` ends it. `model`: the bytes of a glTF, or the parts of a vertex
+ * sequence; `strain`: its block file, or null. `onProgress` gets the share of a glTF that is fetched.
  */
 export function downloadFigure(viewer, signal, onProgress = () => {}) {
   const model = viewer.kind === 'gltf' ? download(viewer.model, signal, onProgress) : vertexSequence(viewer.model);
-  model.catch(() => {}); // said by who waits for it
+  model.catch(() => {}); // the caller handles it
   return { model, strain: viewer.strain ? strainFile(viewer.strain) : null };
 }
 
@@ -16,7 +16,7 @@ async function download(url, signal, onProgress) {
   const answer = await fetch(url, { signal });
   if (!answer.ok) throw new Error(`${url} answered ${answer.status}`);
   const length = Number(answer.headers.get('Content-Length'));
-  if (!length || answer.headers.has('Content-Encoding')) return answer.arrayBuffer(); // how much it will be is not known
+  if (!length || answer.headers.has('Content-Encoding')) return answer.arrayBuffer(); // the length is unknown
   const bytes = new Uint8Array(length);
   let here = 0;
   for (const reader = answer.body.getReader(); ;) {
@@ -39,7 +39,7 @@ async function vertexSequence(url) {
 async function strainFile(url) {
   try {
     const file = await BlockFile.open(url, 'uint8');
-    file.fetch(0).catch(() => {}); // asked for again when it is shown
+    file.fetch(0).catch(() => {}); // fetched again when it is shown
     return file;
-  } catch { return null; } // the figure is worth more than its colours
+  } catch { return null; } // a figure without its colours is better than none
 }

@@ -1,21 +1,23 @@
-// The figure panel: the figure is fetched, posed at the playhead and coloured; where a part is still on its way, the panel waits.
+// The figure panel: it fetches the figure, poses it at the playhead and colours it, and says what it waits for.
 
 import * as api from '../service/api.js';
 import { downloadFigure } from './download.js';
 import { $, nextPaint } from '../dom.js';
 import { motionColour } from '../palette.js';
 
-const LATE = 250; // ms after which a wait for blocks is said
-const SOON = 1500; // ms until it is asked again whether the figure is prepared
+const LATE = 250; // ms after which the panel says that it waits for blocks
+const SOON = 1500; // ms until the panel asks again whether the figure is prepared
+
+const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i; // renderers without a graphics card
 
 let scene = null; // one for the page: a browser gives out few WebGL contexts
 
 export class FigurePanel {
-  #signal; #moments = () => []; #request = 0; #noteTimer = 0; #retryTimer = 0; #shown = false; #colouring = 'strain';
+  #signal; #poses = () => []; #request = 0; #noteTimer = 0; #retryTimer = 0; #shown = false; #colouring = 'strain';
 
-  /** `moments()` lists what to show: one `{ position, motion }`, or two side by side. */
-  constructor(moments, signal) {
-    this.#moments = moments;
+  /** `poses()` lists what to show: one `{ position, motion }`, or two side by side. */
+  constructor(poses, signal) {
+    this.#poses = poses;
     this.#signal = signal;
     signal.addEventListener('abort', () => this.#leave());
   }
@@ -25,16 +27,16 @@ export class FigurePanel {
   /** Whether a frame can be shown without waiting. */
   ready(frame) { return !this.#shown || scene.figure.ready(frame); }
 
-  /** Bring the figure of a segmentation, whose viewer document may be `asked` for already, into the panel; without it the rest of the page works all the same. */
+  /** Show the figure of a segmentation; `asked` is the promise of its viewer document. Without a figure the rest of the page works. */
   async open(id, asked = api.viewer(id)) {
     try {
       this.showNote('Loading the figure …');
-      await nextPaint(); // all else is to be seen before the drawing of the figure keeps the page busy
-      const graphics = startGraphics(); // takes long, and beside all else
+      await nextPaint(); // the person sees all else before the figure keeps the page busy
+      const probe = probeRenderer(); // takes long, so it runs beside all else
       const download = asked.then((viewer) => downloadFigure(viewer, this.#signal, (share) => this.#showProgress(share)));
-      const [viewer, files, { FigureScene }] = await Promise.all([asked, download, import('./scene.js'), graphics]);
+      const [viewer, files, { FigureScene }, renderer] = await Promise.all([asked, download, import('./scene.js'), probe]);
       if (this.#signal.aborted) return;
-      scene ||= new FigureScene($('figure'));
+      scene ||= new FigureScene($('figure'), SOFTWARE.test(renderer));
       await scene.show(viewer, files, this.#signal);
       if (this.#signal.aborted) return;
       this.#shown = true;
@@ -57,12 +59,12 @@ export class FigurePanel {
     this.show();
   }
 
-  /** Show the moment, or wait for its blocks and show it then, unless another is wanted by that time. */
+  /** Show the current poses; if their blocks are missing, wait for them, unless other poses are requested meanwhile. */
   show() {
     if (!this.#shown) return;
     const request = ++this.#request;
-    const moments = this.#moments().map(({ position, motion }) => ({ position, colouring: this.#colourOf(motion) }));
-    const missing = scene.pose(moments);
+    const poses = this.#poses().map(({ position, motion }) => ({ position, colouring: this.#colourOf(motion) }));
+    const missing = scene.pose(poses);
     if (!missing) return this.#clearNote();
     this.#noteTimer ||= setTimeout(() => this.showNote('Loading …'), LATE);
     missing.then(
@@ -71,7 +73,7 @@ export class FigurePanel {
     );
   }
 
-  /** What `StrainShading.colourBy` is told for a motion. */
+  /** The colouring of a motion, for `StrainShading.colourBy`. */
   #colourOf(motion) {
     if (this.#colouring === 'plain') return null;
     return this.#colouring === 'motion' ? motionColour(motion) : 'strain';
@@ -82,13 +84,13 @@ export class FigurePanel {
     $('stage-note').hidden = !sentence;
   }
 
-  /** Say how much is here, as often as that is another number. */
+  /** Say how much has been fetched, whenever the number changes. */
   #showProgress(share) {
     const sentence = `Loading the figure … ${Math.round(100 * share)} %`;
     if ($('stage-note').textContent !== sentence) this.showNote(sentence);
   }
 
-  /** Say and ask nothing more: the scene is another's. */
+  /** Leave the scene to another result. */
   #leave() {
     this.#shown = false;
     this.#request++;
@@ -104,7 +106,7 @@ export class FigurePanel {
     this.showNote('');
   }
 
-  /** Without strain to show (joints alone, or rigid parts) the motions colour the figure. */
+  /** Offer strain and its legend; a figure without strain (joints alone, rigid parts) is coloured by motion. */
   #offerStrain({ present, gradient }) {
     const choice = (look) => document.querySelector(`#looks [value=${look}]`);
     choice('strain').parentElement.hidden = $('heat').hidden = !present;
@@ -116,13 +118,13 @@ export class FigurePanel {
   }
 }
 
-let started = null;
+let renderer = null;
 
-/** Have a worker start the browser's graphics, once. */
-function startGraphics() {
-  started ??= new Promise((done) => {
-    const worker = new Worker(new URL('./webgl_start.js', import.meta.url));
-    worker.onmessage = worker.onerror = () => { worker.terminate(); done(); };
+/** Have a worker start WebGL, once; resolves to the name of the renderer, or to nothing if the worker fails. */
+function probeRenderer() {
+  renderer ??= new Promise((done) => {
+    const worker = new Worker(new URL('./webgl_probe.js', import.meta.url));
+    worker.onmessage = worker.onerror = ({ data }) => { worker.terminate(); done(data); };
   });
-  return started;
+  return renderer;
 }

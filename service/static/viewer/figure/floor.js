@@ -1,5 +1,5 @@
-// The floor: lines that fade into the distance and a soft shade where the figure stands. Lines and one small square, not
-// a plane to the horizon: a renderer without a graphics card pays for every pixel that is covered.
+// The floor: lines that fade into the distance, and a soft shade where the figure stands. It is lines and one small square
+// and no plane to the horizon, because software WebGL pays for every pixel that is covered.
 
 import { BufferAttribute, BufferGeometry, Color, Group, LineSegments, Mesh, PlaneGeometry, ShaderMaterial, Vector2 } from 'three';
 

@@ -1,4 +1,4 @@
-// A glTF plays as itself: the plain copy's one animation, skinned and morphed by the GPU.
+// The figure of a glTF: the plain copy's one animation, skinned and morphed by WebGL.
 
 import { AnimationMixer, Box3, BufferAttribute, DoubleSide, LoopRepeat, MeshLambertMaterial, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';

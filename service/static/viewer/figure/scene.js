@@ -1,4 +1,4 @@
-// The 3D view: camera, light, floor and one figure, at one moment or at two side by side. Draws only when something changed.
+// The 3D scene: camera, light, floor and one figure in one pose, or in two side by side. It draws only after a change.
 
 import { DirectionalLight, Group, HemisphereLight, Scene, Vector3, WebGLRenderer } from 'three';
 import { FigureCamera } from './camera.js';
@@ -8,17 +8,18 @@ import { createGltfFigure } from './gltf_figure.js';
 import { StrainShading } from './strain_shading.js';
 import { createVertexFigure } from './vertex_figure.js';
 
-const FINEST = 2; // pixels to a CSS pixel; more is not seen
+const FINEST = 2; // pixels to a CSS pixel; nobody sees more
 
 export class FigureScene {
   #renderer; #scene = new Scene(); #camera; #floor = new Floor(); #light = new Light(); #requested = false;
-  #middle = new Vector3(); #moments = []; #size = { width: 1, height: 1 };
+  #middle = new Vector3(); #poses = []; #size = { width: 1, height: 1 };
 
-  constructor(canvas) {
+  /** `software`: the processor draws, so the picture has no anti-aliasing and one pixel for each CSS pixel. */
+  constructor(canvas, software) {
     this.canvas = canvas;
     this.figure = null;
     this.strain = new StrainShading();
-    this.#renderer = rendererOn(canvas);
+    this.#renderer = rendererOn(canvas, software);
     this.#camera = new FigureCamera(canvas, () => this.draw());
     this.#scene.add(this.#light.object, this.#camera.camera, this.#floor.object);
     onResize(canvas.parentElement, () => this.#fit());
@@ -28,10 +29,10 @@ export class FigureScene {
     this.#renderer.compile(this.#scene, this.#camera.camera); // while the figure is on its way
   }
 
-  /** Whether the camera goes along with the body. */
+  /** Whether the camera follows the body. */
   set following(on) { this.#camera.following = on; }
 
-  /** Show what the service's viewer document names, `files` as `downloadFigure` answers it, in place of what was there. */
+  /** Show the figure of a viewer document, from the `files` of `downloadFigure`, in place of the one before. */
   async show(viewer, files, signal) {
     const [model, colours] = await Promise.all([files.model, files.strain]);
     const strain = new StrainShading(colours);
@@ -50,25 +51,25 @@ export class FigureScene {
     this.figure.dispose();
     this.strain.dispose();
     this.figure = null;
-    this.#moments = [];
+    this.#poses = [];
     this.draw();
   }
 
   /**
-   * Show moments, one or two side by side: `{ position, colouring }` each, in frames and as in `StrainShading.colourBy`. They are posed
-   * when they are drawn, so that of many in one screen frame only the last costs anything. Answers null, or a promise
-   * of what had to be fetched first.
+   * Show one pose, or two side by side: `{ position, colouring }` each, in frames and as in `StrainShading.colourBy`. The
+   * figure is posed when it is drawn, so that of many calls in one screen frame only the last costs anything. Answers null,
+   * or a promise of the blocks that must be fetched first.
    */
-  pose(moments) {
-    this.#moments = moments;
+  pose(poses) {
+    this.#poses = poses;
     this.draw();
-    const missing = moments.map(({ position, colouring }) => [Math.floor(position), colouring === 'strain'])
+    const missing = poses.map(({ position, colouring }) => [Math.floor(position), colouring === 'strain'])
       .filter(([frame, strained]) => !this.figure.ready(frame) || (strained && !this.strain.ready(frame)));
     if (!missing.length) return null;
     return Promise.all(missing.flatMap(([frame]) => [this.figure.fetch(frame), this.strain.fetch(frame)]));
   }
 
-  /** Stand back until the whole figure is seen. */
+  /** Move the camera back until it sees the whole figure. */
   reframe() {
     if (!this.figure) return;
     const box = this.figure.box();
@@ -96,23 +97,23 @@ export class FigureScene {
 
   #render() {
     const { width, height } = this.#size;
-    const share = Math.max(1, this.#moments.length);
+    const share = Math.max(1, this.#poses.length);
     this.#camera.setView(this.#size, share);
     this.#renderer.setScissorTest(share > 1);
     for (let place = 0; place < share; place++) {
       this.#renderer.setViewport((place * width) / share, 0, width / share, height);
-      this.#poseFigure(this.#moments[place], place === 0);
+      this.#poseFigure(this.#poses[place], place === 0);
       this.#renderer.setScissor((place * width) / share, 0, width / share, height);
       this.#renderer.render(this.#scene, this.#camera.camera);
     }
   }
 
-  /** Pose and colour the figure; light and floor go with it, and with the first moment the camera. */
-  #poseFigure(moment, first) {
-    if (this.figure && moment) {
-      this.figure.pose(moment.position);
-      this.strain.colourBy(moment.colouring);
-      this.strain.showFrame(Math.floor(moment.position));
+  /** Pose and colour the figure; light and floor follow it, and with the first pose the camera does. */
+  #poseFigure(pose, first) {
+    if (this.figure && pose) {
+      this.figure.pose(pose.position);
+      this.strain.colourBy(pose.colouring);
+      this.strain.showFrame(Math.floor(pose.position));
       this.figure.centre(this.#middle);
       if (first) this.#camera.follow(this.#middle);
     }
@@ -135,16 +136,15 @@ export class FigureScene {
   }
 }
 
-/** A renderer in WebGL, by the graphics card or by the browser's own software. */
-function rendererOn(canvas) {
-  const ratio = Math.min(devicePixelRatio, FINEST);
-  const context = canvas.getContext('webgl2', { alpha: true, antialias: ratio < FINEST });
+function rendererOn(canvas, software) {
+  const context = canvas.getContext('webgl2', { alpha: true, antialias: !software });
   if (!context) throw new Error('this browser does not offer WebGL 2. Everything else on this page works.');
   const renderer = new WebGLRenderer({ canvas, context });
-  renderer.setPixelRatio(ratio);
+  renderer.setPixelRatio(software ? 1 : Math.min(devicePixelRatio, FINEST));
   return renderer;
 }
 
+/** A sky, a key light over the viewer's left shoulder, so that no side of the figure is dark, and a rim from behind. */
 class Light {
   #key = new DirectionalLight(0xfff4e6, 1.7); #rim = new DirectionalLight(0xcfe0ff, 0.9);
   #sky = new HemisphereLight(0xffffff, 0xb5aa9a, 1.9);

@@ -1,5 +1,5 @@
-// A skeleton without a mesh: a capsule from every joint to each of its children. A capsule is a rod and a ball at each
-// end, so that its ends stay round however long the bone is.
+// A skeleton without a mesh: a capsule from each joint to each of its children. A capsule is a rod and a ball at each end, so
+// that its ends stay round however long the bone is.
 
 import { BufferAttribute, CylinderGeometry, Group, InstancedMesh, Matrix4, MeshLambertMaterial, Quaternion, SphereGeometry, Vector3 } from 'three';
 

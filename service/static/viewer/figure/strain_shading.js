@@ -1,4 +1,4 @@
-// Strain as colour: one byte a patch and frame, looked up on the GPU, so that a frame costs a few hundred bytes.
+// Strain as colour: one byte for each patch and frame. The shader looks it up, so a frame costs a few hundred bytes.
 
 import { Color, DataTexture, NearestFilter, RedFormat, UnsignedByteType } from 'three';
 
@@ -32,7 +32,7 @@ vec3 heatOf(float s) {
 export class StrainShading {
   #file; #shown = -1;
 
-  /** Of a block file, or of none. */
+  /** The shading of a block file of strain, or of none. */
   constructor(file = null) {
     this.#file = file;
     this.uniforms = {
@@ -74,7 +74,7 @@ export class StrainShading {
   /** Whether a frame can be shown without waiting. */
   ready(frame) { return !this.#file || this.#file.has(frame); }
 
-  /** Show a frame; while its block is on the way the last one stays. */
+  /** Show the strain of a frame; until its block is fetched the one before stays. */
   showFrame(frame) {
     if (!this.#file || !this.uniforms.heated.value || frame === this.#shown) return;
     const values = this.#file.peek(frame);
@@ -88,7 +88,7 @@ export class StrainShading {
 
   fetch(frame) { return this.#file ? this.#file.fetch(frame) : Promise.resolve(); }
 
-  /** `strain`, or a colour for the whole body, or null for clay. */
+  /** Colour by `strain`, by one colour for the whole body, or by null as clay. */
   colourBy(choice) {
     const heated = choice === 'strain' && this.present;
     this.uniforms.heated.value = heated ? 1 : 0;

@@ -1,5 +1,5 @@
-// Triangles in an order that uses each vertex while it is fresh: a renderer keeps only the last few dozen, and works out
-// again whatever comes back later. (The smooth sample figure: a third of the work.)
+// Triangles in an order that reuses each vertex soon: a renderer keeps only the last few dozen vertices and computes the others
+// again. On the figure of 30,000 triangles software WebGL saves a tenth to a fifth.
 
 /** The triangles of an index array, those of low vertices first; nothing but their order changes. */
 export function orderTriangles(index) {

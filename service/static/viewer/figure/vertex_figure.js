@@ -1,11 +1,11 @@
-// A vertex sequence plays from blocks of int16 positions; the surface is lit by normals made here, frame by frame.
+// The figure of a vertex sequence: blocks of int16 positions. The normals are computed here, frame by frame.
 
 import { Box3, BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshLambertMaterial, Vector3 } from 'three';
 import { orderTriangles } from './triangle_order.js';
 
 const LARGEST = 32767;
 
-/** The figure of a sequence's parts. */
+/** The figure of the files of a vertex sequence. */
 export const createVertexFigure = (viewer, { file, triangles, patches }, strain) =>
   new VertexFigure(file, orderTriangles(triangles), patches, strain);
 

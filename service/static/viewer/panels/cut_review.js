@@ -1,4 +1,4 @@
-// The cuts, least certain first, for a person to look through.
+// The review: all cuts, the least certain first; a person plays around each and marks it as checked.
 
 import { isDoubtful } from '../editing/segment_edits.js';
 import { $, scrollToRow, make, screenReaderText } from '../dom.js';
@@ -13,7 +13,7 @@ const WIDE = 30; // seconds to look at a cut in, where more than twice that is s
 export class CutReview {
   #list = $('cuts'); #editor; #playhead; #range; #checked; #rows = new Map(); #drawn = null;
 
-  /** `editor` selects cuts, `playhead` plays around them, `range` shows them; results are told apart by `id`. */
+  /** `editor` selects cuts, `playhead` plays around them, `range` shows them; `id` is that of the result. */
   constructor(id, editor, playhead, range, signal) {
     this.#editor = editor;
     this.#playhead = playhead;
@@ -74,10 +74,10 @@ export class CutReview {
     if (this.#range.length > 2 * wide) this.#range.set(end - wide / 2, end + wide / 2);
   }
 
-  /** Whether nobody has checked or placed the cut that ends a segment. */
+  /** Whether no person has checked or placed the cut that ends a segment. */
   #isOpen({ end, confidence }) { return confidence !== null && !this.#checked.has(end); }
 
-  /** All cuts: those without an open question last. */
+  /** All cuts, those that a person has checked or placed last. */
   #order() {
     const cuts = this.#editor.segments.slice(0, -1).map((segment, cut) => ({ segment, cut }));
     const rank = ({ segment }) => (this.#isOpen(segment) ? segment.confidence : 2);
@@ -133,8 +133,8 @@ export function addReviewTools(review) {
   $('checked').addEventListener('click', () => review()?.check());
 }
 
-/** What the row of the cut between two segments says, and a key that is another whenever the row must be. */
-export function cutText(before, after, checked) {
+/** The texts of the row of a cut between two segments, and a key that changes whenever the row must. */
+function cutText(before, after, checked) {
   const known = checked ? 'checked' : before.confidence === null ? 'set by hand' : null;
   const state = known || `${Math.round(100 * before.confidence)} %`;
   const frame = frameText(before.end);
@@ -142,7 +142,7 @@ export function cutText(before, after, checked) {
 }
 
 /** The row, a button that calls `choose`. */
-export function cutRow(before, after, { frame, state, known }, choose) {
+function cutRow(before, after, { frame, state, known }, choose) {
   const names = `${before.name} | ${after.name}`;
   const row = make('button', { type: 'button', className: 'cut', tabIndex: -1, onclick: choose },
     motionSwatch(before.motion), motionSwatch(after.motion),
@@ -155,10 +155,10 @@ export function cutRow(before, after, { frame, state, known }, choose) {
   return row;
 }
 
-export class CheckedCuts {
+class CheckedCuts {
   #key; #frames;
 
-  /** Those of the result `id`. */
+  /** The checked cuts of the result `id`, remembered in this browser. A cut is known by its frame. */
   constructor(id) {
     this.#key = `caesura.checked.${id}`;
     this.#frames = new Set(stored(this.#key, []));

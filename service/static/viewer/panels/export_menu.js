@@ -1,11 +1,11 @@
-// What can be taken away, always of the revision that is shown: edits still open are kept first.
+// The button of the clips and the menu of the other exports, always of the revision on screen: open edits are saved first.
 
 import * as api from '../service/api.js';
 import { $, make } from '../dom.js';
 
 /**
  * Wire the links once. `shown()` answers `{ id, name, revision, dirty, keep }`: what is on screen, whether edits are
- * open, and how to keep them; null while there is no result.
+ * open, and how to save them; null while there is no result.
  */
 export function addExportMenu(shown) {
   const menu = $('downloads').querySelector('details');
@@ -14,7 +14,7 @@ export function addExportMenu(shown) {
   clips.onclick = (event) => save(event, clips, 'clips', true);
   const links = [[clips, 'clips']];
   const note = (sentence) => { $('downloads-note').textContent = sentence; };
-  let of = ''; // the result that was noted of
+  let of = ''; // the result that the note is about
   list.addEventListener('click', () => { menu.open = false; });
   menu.addEventListener('keydown', (event) => {
     if (event.key !== 'Escape' || !menu.open) return;
@@ -43,7 +43,7 @@ export function addExportMenu(shown) {
     } catch (problem) { note(problem.message); }
   }
 
-  /** Fill the menu from what the service offers. */
+  /** Fill the menu from the service's list. */
   async function offerExports() {
     const answer = await api.exports().catch(() => null);
     for (const { path, title, description, queued } of answer?.exports ?? []) {
@@ -56,7 +56,7 @@ export function addExportMenu(shown) {
     showLinks();
   }
 
-  /** Point the links at what is on screen now. */
+  /** Point the links at the result and the revision on screen. */
   function showLinks() {
     if (!shown()) return;
     const { id, revision, name } = shown();

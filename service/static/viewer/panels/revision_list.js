@@ -1,4 +1,4 @@
-// What was kept, newest first, down to the result as computed. Any of them can be shown, and edited from there.
+// The list of revisions, newest first, down to the computed result. A person can show each, and edit from there.
 
 import * as api from '../service/api.js';
 import { $, make } from '../dom.js';
@@ -29,7 +29,7 @@ export async function showRevisions(id, shown, open) {
 /** Wire the list once. */
 export const addRevisionList = () => addRovingFocus($('revisions'), 'button');
 
-/** Show another revision of a result, after what is open is kept (or, where it cannot be, dropped on purpose). */
+/** Show another revision of a result. Open edits are saved first, or dropped if a person chose so. */
 export async function openRevision(result, number, dropping = false) {
   const { saving } = result.editor;
   const { id } = result.document;

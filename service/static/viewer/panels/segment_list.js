@@ -1,4 +1,4 @@
-// The list of segments: what, from where, how long. Every row is a button that goes there; one Tab setTabStop for all.
+// The list of segments: motion, start and length. Every row is a button that goes to the segment; Tab stops at the list once.
 
 import { isDoubtful } from '../editing/segment_edits.js';
 import { firstFrameNumber, duration, frameText, intervalText } from '../number_format.js';

@@ -1,4 +1,5 @@
-// Another number of motions, another method: asked of the same animation, so the vertices are not touched again.
+// The form of a segmentation: the number of motions, with a chart of their errors, and the method. A change is asked of the
+// same animation, which the service has analysed already.
 
 import * as api from '../service/api.js';
 import { waitUntilDone } from '../service/job_status.js';
@@ -6,12 +7,12 @@ import { $, make } from '../dom.js';
 import { count } from '../number_format.js';
 
 const DELAY = 350; // ms of quiet before a typed or stepped number is sent
-const SOON = 150; // ms after which a wait is said
+const SOON = 150; // ms after which the form says that it waits
 
 let choose = () => {};
-let most = Infinity; // motions that the service takes, once it has said so
+let most = Infinity; // motions that the service takes; it says so in its list of methods
 let needsNumber = new Set(); // the methods that cannot find the number of motions themselves
-let compared = { of: '', scores: [] }; // a cut into a given number has no scores: those of the same method stay
+let compared = { of: '', scores: [] }; // a result of a given number has no scores: those of the same method stay
 
 /** Wire the form once. `resegment(changes)` posts; `current()` is the document on screen. */
 export function addSegmentationForm({ resegment, current }) {
@@ -96,7 +97,7 @@ export async function resegment(result, changes, signal) {
 
 const option = (name, title = '') => make('option', { value: name, title }, name);
 
-/** Fill the choice of methods from what the service offers. */
+/** Fill the menu of methods from the service's list. */
 export async function offerMethods() {
   const answer = await api.methods().catch(() => null);
   if (!answer) return;
@@ -120,7 +121,7 @@ const svg = (tag, attributes, text = '') => {
 };
 
 /** Draw `scores` with `chosen` marked; hidden where there is nothing to compare. `choose(motions)` is called on a click. */
-export function showScores(scores, chosen, choose) {
+function showScores(scores, chosen, choose) {
   $('scores').hidden = scores.length < 2;
   if (scores.length < 2) return;
   const chart = $('scores').querySelector('svg');

@@ -1,10 +1,10 @@
-// What the page says of a result in words and numbers: counts and warnings of the take, the moment, the two poses of a cut.
+// What the page says of a result in words and numbers: counts and notes, the current frame, the two poses at a cut.
 
 import { $, make } from '../dom.js';
 import { clockTime, count, frameNumber, frameText, grouped } from '../number_format.js';
 import { writeTag } from '../palette.js';
 
-/** Say how long a take is, and what the method warns of. */
+/** Show how long a take is, and the warnings of the method. */
 export function showTake({ frames, warnings }) {
   $('frames').textContent = grouped(frames);
   $('frame').size = $('cut-frame').size = Math.max(3, String(frames).length);
@@ -14,12 +14,12 @@ export function showTake({ frames, warnings }) {
   $('warnings').querySelector('ul').replaceChildren(...warnings.map((warning) => make('li', {}, warning.detail)));
 }
 
-/** Say how many motions and segments there are. */
+/** Show how many motions and segments there are. */
 export function showCounts({ motions, segments }) {
   $('summary').textContent = `${count(motions, 'motion')} · ${count(segments.length, 'segment')}`;
 }
 
-/** Say where the playhead of a result is, in which `segment`; `pair` are the two around a selected cut, or null. */
+/** Show where the playhead of a result is, in which `segment`; `pair` are the two around a selected cut, or null. */
 export function showMoment({ playhead, document: { energy }, seconds }, segment, pair) {
   const { frame, playing } = playhead;
   const field = $('frame');
@@ -33,7 +33,7 @@ export function showMoment({ playhead, document: { energy }, seconds }, segment,
   showPair(pair);
 }
 
-/** Say what the two halves of the stage show, of the segments before and after a cut; without them, one pose fills it. */
+/** Name the two poses that the figure panel shows, of the segments before and after a cut; null: there is one pose. */
 export function showPair(pair) {
   const box = $('pair');
   box.hidden = !pair;

@@ -1,4 +1,4 @@
-// The REST calls of the page. It is a client like any other: nothing here that curl could not do.
+// The REST calls of the page. The page is a client like any other: curl can do all of this.
 
 import { waitForSignIn } from './sign_in.js';
 
@@ -54,11 +54,11 @@ export const cancel = (id) => call('DELETE', `/v1/segmentations/${id}`);
 export const segment = (animationId, parameters = {}) =>
   call('POST', '/v1/segmentations', json({ animation: animationId, ...parameters }));
 
-/** Where a form of the result is, as of a revision: `result.csv`, `clips`, `plot.svg`. */
+/** The address of an export of a revision: `result.csv`, `clips`, `plot.svg`. */
 export const exportAddress = (id, name, revision = 0) => `/v1/segmentations/${id}/${name}${revisionQuery(revision)}`;
 const revisionQuery = (revision) => (revision ? `?revision=${revision}` : '');
 
-/** Keep edited segments as the revision after number `newest`; 412 where somebody else has made one since. */
+/** Save edited segments as the revision after number `newest`; 412 if somebody else has saved one since. */
 export function revise(id, segments, newest, note) {
   const sent = segments.map(({ start, end, motion, name, loop, discard }) =>
     ({ start, end, motion, name, loop: Boolean(loop), discard: Boolean(discard) }));
@@ -66,7 +66,7 @@ export function revise(id, segments, newest, note) {
   return call('POST', `/v1/segmentations/${id}/revisions`, { body, headers: { ...headers, 'If-Match': `"${newest}"` } });
 }
 
-/** Whether what a worker has to write first is there to be fetched, after waiting for it for a while. */
+/** Wait a while for a worker to write an export; answers whether it is written. */
 export async function isWritten(address) {
   const answer = await fetch(address, { headers: { Prefer: 'wait=30', Range: 'bytes=0-0' } }).catch(() => null);
   if (!answer) throw new Problem(UNREACHABLE);
@@ -75,8 +75,8 @@ export async function isWritten(address) {
 }
 
 /**
- * Upload one file as the body, several as a form. `onProgress` hears the share sent.
- * XMLHttpRequest, because fetch cannot say how much of a body has gone.
+ * Upload one file as the body, several as a form. `onProgress` gets the share that is sent.
+ * XMLHttpRequest, because fetch cannot say how much of a body is sent.
  */
 export function upload(files, onProgress, signal) {
   return new Promise((resolve, reject) => {

@@ -1,10 +1,10 @@
-// Waiting for a segmentation: live by server-sent events, by long polling where those do not come through.
+// The status of a segmentation: live by server-sent events, by long polling if those do not come through.
 
 import * as api from './api.js';
 
 const OVER = new Set(['done', 'failed', 'cancelled']);
 
-/** The status document once it is done. `onStatus` hears every one on the way. Throws the problem it failed with. */
+/** The status document once it is done. `onStatus` gets every one on the way. Throws the problem it failed with. */
 export async function waitUntilDone(id, onStatus, signal) {
   let status = await api.status(id, 0, signal);
   onStatus(status);

@@ -1,10 +1,10 @@
-// Signing in, where the service wants a key: asked once, exchanged for a cookie that no script can read.
+// Signing in, if the service needs a key: the page asks once, and exchanges the key for a cookie that no script can read.
 
 import { make } from '../dom.js';
 
-const SIGNED_IN = 'caesura-signed-in'; // in this browser's memory: only that it was done, to offer signing out
+const SIGNED_IN = 'caesura-signed-in'; // stored in this browser, to offer signing out; never the key
 
-/** Once somebody is signed in. However many calls wait, the person is asked once. */
+/** Resolves once a person has signed in. Several calls make one dialog. */
 export function waitForSignIn() {
   pending ??= askForKey().finally(() => { pending = null; });
   return pending;
@@ -20,7 +20,7 @@ function askForKey() {
     make('p', { className: 'ask' }, make('label', { htmlFor: 'key' }, 'Key'), key, make('button', { type: 'submit', className: 'primary' }, 'Sign in')),
     problem);
   const dialog = make('dialog', { 'aria-labelledby': 'sign-in' }, form);
-  dialog.addEventListener('cancel', (event) => event.preventDefault()); // nothing behind it can be used without
+  dialog.addEventListener('cancel', (event) => event.preventDefault()); // without a key nothing on the page works
   document.body.append(dialog);
   dialog.showModal();
   return new Promise((resolve) => {
@@ -39,7 +39,7 @@ function askForKey() {
   });
 }
 
-/** Why the key was refused; empty where it was taken. */
+/** Why the service refused the key; empty if it did not. */
 async function refusalOf(key) {
   const answer = await fetch('/v1/session', {
     method: 'POST', body: JSON.stringify({ key }), headers: { 'Content-Type': 'application/json' },

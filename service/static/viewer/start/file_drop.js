@@ -1,4 +1,4 @@
-// Files come in by drop, by choice and by paste, anywhere on the page.
+// Files of a person: by drop, by choice and by paste, anywhere on the page.
 
 import { $ } from '../dom.js';
 

@@ -1,4 +1,4 @@
-// The wait: every stage as it comes, ticked when it is over.
+// The waiting view: each stage of a segmentation as it comes, ticked when it is over.
 
 import { $, make } from '../dom.js';
 import { count } from '../number_format.js';
@@ -50,4 +50,4 @@ export const STAGES = {
 };
 
 /** A stage in words. A stage this page has not heard of is shown under its own name. */
-export const stageText = (stage) => STAGES[stage] || (stage ? stage[0].toUpperCase() + stage.slice(1).replaceAll('-', ' ') : '');
+const stageText = (stage) => STAGES[stage] || (stage ? stage[0].toUpperCase() + stage.slice(1).replaceAll('-', ' ') : '');

@@ -1,4 +1,4 @@
-// What was opened before, newest first.
+// The list of recent animations, newest first.
 
 import * as api from '../service/api.js';
 import { $, make } from '../dom.js';

@@ -15,7 +15,7 @@ export class EnergyCurve {
 
   constructor(box, document, range, signal) {
     this.#box = box;
-    this.#width = box.clientWidth; // kept, for asking makes the browser lay out the page
+    this.#width = box.clientWidth; // stored, because reading it makes the browser lay out the page
     this.#range = range;
     this.#document = document;
     this.refresh = oncePerFrame(() => this.#fill());
@@ -79,7 +79,7 @@ export class EnergyCurve {
     this.#plot.setData(decimate(this.#document.energy, from, to, this.plot.width));
   }
 
-  /** What motion each stretch is, as a tint behind the curve. */
+  /** Draw the motion of each segment, as a tint behind the curve. */
   #underlay(u) {
     const { ctx, bbox } = u;
     ctx.save();
@@ -96,7 +96,7 @@ export class EnergyCurve {
     ctx.restore();
   }
 
-  /** Cuts as lines, dashed where the method is in doubt; key-frames as dots in their motion's colour. */
+  /** Draw cuts as lines, dashed where the method doubts them; key-frames as dots in their motion's colour. */
   #overlay(u) {
     const { ctx, bbox } = u;
     const ratio = devicePixelRatio || 1;

@@ -1,4 +1,4 @@
-// Moving along a take: to segments and frames, at a speed, again and again, nearer or farther; and about the figure.
+// Navigation: to segments and frames, playback and its speed, repeat, zoom, and the buttons of the figure.
 
 import { $ } from '../dom.js';
 import { setFirstFrameNumber, firstFrameNumber, parseFrame } from '../number_format.js';
@@ -20,7 +20,7 @@ export function goToNeighbour(result, by) {
   goToSegment(result, by < 0 && started ? index : Math.max(0, Math.min(segments.length - 1, index + by)));
 }
 
-/** Play the segment of the moment again and again, or go on from it. */
+/** Repeat the current segment, or stop repeating it. */
 export function repeatSegment(result, on) {
   const { start, end } = result.document.segments[result.segmentIndexAt(result.playhead.frame)];
   result.playhead.loop = on ? [start, end] : null;

@@ -24,7 +24,7 @@ export class Playhead {
     this.#run(playing);
   }
 
-  /** Play [start, end) once, at normal speed, then come to rest at `rest`. Nobody hears of `start` as of a place to stay. */
+  /** Play [start, end) once, at normal speed, then come to rest at `rest`. No listener takes `start` for a place to stay. */
   playOnce(start, end, rest) {
     this.loop = null;
     this.position = Math.max(0, start);

@@ -1,4 +1,4 @@
-// Pointer and wheel over the curve and the timeline: the playhead that runs through both, and cuts to be dragged.
+// Pointer, wheel and two fingers over the curve and the track of segments: they move the playhead, drag cuts and zoom.
 
 import { $, onResize } from '../dom.js';
 import { clockTime, frameText } from '../number_format.js';
@@ -130,8 +130,9 @@ function repetition({ repeats }, frame) {
   return repeats.length > 1 && at >= 0 ? `, ${at + 1} of ${repeats.length}` : '';
 }
 
-const CLOSE = 0.02; // share of the width below which two fingers say nothing of how far to zoom
+const CLOSE = 0.02; // share of the width below which two fingers do not zoom
 
+/** Two fingers on a range of frames: apart and together they zoom, aside they pan. The frames under them stay under them. */
 export class Pinch {
   #range; #fingers = new Map();
 

@@ -1,4 +1,4 @@
-// The motions along the take: one coloured box a segment, named. Drawn on a canvas, so that thousands cost little.
+// The track of segments: one coloured box for each, named. It is drawn on a canvas, so that thousands cost little.
 
 import { oncePerFrame, onResize, onThemeChange, sharpContext, styleValue } from '../dom.js';
 import { motionColour, motionFill, inkOver } from '../palette.js';

@@ -1,4 +1,4 @@
-// The frames on screen: zoom and pan, shared by the curve and the timeline so that they always agree.
+// The range of frames on screen: zoom and pan. The curve and the track of segments share it, so they always agree.
 
 const FEWEST = 8; // frames; nearer than this there is nothing to see
 
