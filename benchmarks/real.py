@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from caesura.core.methods.table import METHODS
 from jaxtyping import Bool, Float, Int
 
 from benchmarks.labelled import MODELS
@@ -25,7 +26,6 @@ from caesura.core.agreement import frame_accuracy
 from caesura.core.analysis import Analysis
 from caesura.core.errors import ParameterError
 from caesura.core.limits import Limits
-from caesura.core.methods.table import METHODS
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse, cut
 from caesura.core.repetition.repetitions import RepetitionFinder

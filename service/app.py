@@ -41,6 +41,7 @@ def create_app(settings: ServiceSettings) -> FastAPI:
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         async with open_backend(settings) as backend:
             app.state.backend = backend
+            app.openapi()  # takes half a second, which no request is to wait for
             yield
 
     app = FastAPI(

@@ -59,7 +59,7 @@ def crowd(running: Running, small: int, large: int) -> list[Measure]:
     with Calls(running.url) as calls:
         first = calls.post_file(next(different(long_session(SMALL + 1).glb)))["id"]
         memory, since = Memory(running.pid), time.perf_counter()
-        with polled(running.url, first) as took:
+        with polled(running.url, f"/v1/segmentations/{first}") as took:
             with ThreadPoolExecutor(POSTERS) as pool:
                 posted = list(pool.map(lambda glb: _post(running.url, glb), _mixed(small, large)))
             accepted = time.perf_counter() - since
@@ -108,10 +108,9 @@ def _post(url: str, glb: bytes) -> str:
 
 
 @contextmanager
-def polled(url: str, identifier: str) -> Iterator[list[float]]:
-    """A process of its own reads one status fifty times a second; its milliseconds are in the list afterwards."""
+def polled(url: str, path: str) -> Iterator[list[float]]:
+    """A process of its own reads one path fifty times a second; its milliseconds are in the list afterwards."""
     place = urlsplit(url)
-    path = f"/v1/segmentations/{identifier}"
     command = [sys.executable, "-m", "benchmarks.load.reader", str(place.hostname), str(place.port), path]
     command += [str(LONGEST_SECONDS), str(PAUSE_SECONDS)]
     client = subprocess.Popen(command, stdout=subprocess.PIPE)

@@ -7,6 +7,7 @@ import asyncio
 import http
 import json
 import socket
+import sys
 from typing import Any
 
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
@@ -15,6 +16,9 @@ from caesura.service.problems.status_table import MEDIA_TYPE
 
 MOST_HEAD_BYTES = 64 * 1024
 """Of a request's head, and of what follows a body. A longer head that comes in one piece is read all the same."""
+
+MOST_UNSENT_BYTES = 128 * 1024
+"""That the kernel holds of an answer, beside what is under way; else megabytes for a client that reads nothing."""
 
 TOO_LARGE = {
     "type": "urn:caesura:problem:head-too-large",
@@ -46,9 +50,10 @@ class Protocol(HttpToolsProtocol):
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]  # as uvicorn has it
         """Somebody came."""
         super().connection_made(transport)
-        if hasattr(socket, "TCP_USER_TIMEOUT"):
-            milliseconds = int(self.write_seconds * 1000)
-            transport.get_extra_info("socket").setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, milliseconds)
+        if sys.platform == "linux":
+            tcp = transport.get_extra_info("socket")
+            tcp.setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, int(self.write_seconds * 1000))
+            tcp.setsockopt(socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT, MOST_UNSENT_BYTES)
         self._began = self._heard = self.loop.time()
         self._deadline_timer = self.loop.call_later(self.look_seconds, self._look)
 

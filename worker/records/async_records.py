@@ -10,6 +10,8 @@ from caesura.worker.records.connection import decode_names
 from caesura.worker.records.record_types import TAKES, AnimationRecord, ExportRecord, SegmentationRecord, TakeSummary
 from caesura.worker.records.subscription import ChannelListener, Messages
 
+MOST_CONNECTIONS = 16
+"""To Redis, beside the one that listens. A call waits where all are in use: to make one takes longer than a call."""
 REREAD_SECONDS = 3.0  # a message may be missed where a connection breaks
 LIVE_STATES: Messages = frozenset({b"queued", b"running"})
 
@@ -18,7 +20,9 @@ class AsyncRecords:
     """The same records as the web process reads them. It changes nothing: that goes through `Jobs`."""
 
     def __init__(self, url: str) -> None:
-        self.redis: Redis = Redis.from_pool(BlockingConnectionPool.from_url(url, health_check_interval=30))
+        self.redis: Redis = Redis.from_pool(
+            BlockingConnectionPool.from_url(url, health_check_interval=30, max_connections=MOST_CONNECTIONS)
+        )
         self._listener = ChannelListener(self.redis)
 
     async def close(self) -> None:
