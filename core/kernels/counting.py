@@ -53,10 +53,14 @@ def count_codes(
 def write_codes(tile: Bits, lowest: np.int32, codes: Codes, column: int) -> None:
     """codes[f, column + t] = code of tile[t, f]; as many triangles at a time as share a line of the cache."""
     together = tile.shape[0] // TOGETHER * TOGETHER
+    few = np.empty((TOGETHER, tile.shape[1]), np.uint16)
     for start in range(0, together, TOGETHER):
+        for t in range(TOGETHER):
+            for f in range(tile.shape[1]):
+                few[t, f] = quantise(tile[start + t, f], lowest)
         for f in range(tile.shape[1]):
             for t in range(TOGETHER):  # a constant, so that the loop is unrolled
-                codes[f, np.uint64(column + start + t)] = quantise(tile[start + t, f], lowest)
+                codes[f, np.uint64(column + start + t)] = few[t, f]
     for t in range(together, tile.shape[0]):
         for f in range(tile.shape[1]):
             codes[f, column + t] = quantise(tile[t, f], lowest)
