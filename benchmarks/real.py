@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from caesura.core.methods.table import METHODS
+from caesura.core.registry.methods import METHODS
 from jaxtyping import Bool, Float, Int
 
 from benchmarks.labelled import MODELS

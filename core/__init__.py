@@ -11,7 +11,6 @@ registry                  methods and descriptors by name, one line each
 repetition                the repetitions inside every segment
 analysis                  what is computed once from the vertices
 segmentation              the result of one cut of an analysis
-other_motion_counts       the same take cut into other numbers of motions
 feature_sequence          segmentation of features alone, without vertices
 segmentation_document     the result as JSON
 revision                  changes that a person makes to the result

@@ -1,5 +1,7 @@
 """The method in order: from vertices to an analysis, from an analysis to segments. Arithmetic is elsewhere."""
 
+from collections.abc import Iterable, Iterator
+
 import numpy as np
 from threadpoolctl import threadpool_limits
 
@@ -117,6 +119,17 @@ def cut(analysis: Analysis, parameters: Parameters) -> Segmentation:
         notices=analysis.notices + found.notices,
         repeats=find_repetitions(analysis.derived(RepetitionFinder.of), labels),
     )
+
+
+def cut_into_other_motion_counts(
+    analysis: Analysis, parameters: Parameters, scored: Iterable[int], chosen: int
+) -> Iterator[Segmentation]:
+    """What `cut` answers for every number of motions that was scored when it chose one; the nearest to that first.
+
+    What the cuts have in common is computed once, so that each takes a fraction of the first (`Analysis.derived`).
+    """
+    for motions in sorted(scored, key=lambda motions: (abs(motions - chosen), motions)):
+        yield cut(analysis, parameters.model_copy(update={"motions": motions}))
 
 
 def _describe_source(animation: Animation) -> Source:

@@ -18,6 +18,5 @@ mesh_and_motion     a mesh in one file and its motion in another
 vertex_sequence     frames of vertices stored as an array
 decode_budget       how many bytes a file can decode to
 strict_json         JSON as RFC 8259 defines it
-buffer_file         a buffer read as a file
 notices             what a reader assumed or left out
 """

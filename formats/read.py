@@ -9,7 +9,6 @@ from caesura.core.animation import Animation, Take
 from caesura.core.errors import InvalidModel, UnsupportedMedia
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
-from caesura.formats.buffer_file import BufferFile
 from caesura.formats.bundle.read import read_member, read_shapes
 from caesura.formats.bundle.zip_members import ZipMembers, refuse_nested_archive
 from caesura.formats.file_header import read_header
@@ -18,6 +17,7 @@ from caesura.formats.gltf.read import read_gltf
 from caesura.formats.input_formats import INPUT_FORMATS, InputFormat
 from caesura.formats.mesh_and_motion import pair_mesh_and_motion
 from caesura.formats.npz.read import read_npz
+from caesura.formats.zip.buffer_file import BufferFile
 
 Scratch = Callable[[int], memoryview]
 """Gives a writable buffer of so many bytes, for what must be inflated; the caller decides where it lies."""

@@ -4,9 +4,8 @@ import time
 from contextlib import suppress
 
 from caesura.core.analysis import Analysis
-from caesura.core.other_motion_counts import cut_into_other_motion_counts
 from caesura.core.parameters import Parameters
-from caesura.core.pipeline import analyse, cut
+from caesura.core.pipeline import analyse, cut, cut_into_other_motion_counts
 from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.playback.playback_files import make_playback
 from caesura.formats.read import read_animation

@@ -11,7 +11,6 @@ from caesura.core.animation import Animation, Take
 from caesura.core.errors import InvalidModel
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
-from caesura.formats.buffer_file import BufferFile
 from caesura.formats.frame_rate import ASSUMED
 from caesura.formats.notices import Notices
 from caesura.formats.npy_header import NpyHeader
@@ -19,6 +18,7 @@ from caesura.formats.npz.npz_members import check_shapes, find_members_by_use
 from caesura.formats.time_range import check_frame_count, parse_time_range
 from caesura.formats.vertex_sequence import VertexSequence, require_finite
 from caesura.formats.zip.archive import Archive, malformed_zip
+from caesura.formats.zip.buffer_file import BufferFile
 
 PIECE = 2**24
 

@@ -1,8 +1,7 @@
 """What a slider shows that goes over K."""
 
-from caesura.core.other_motion_counts import cut_into_other_motion_counts
 from caesura.core.parameters import Parameters
-from caesura.core.pipeline import analyse, cut
+from caesura.core.pipeline import analyse, cut, cut_into_other_motion_counts
 from tests.animations import performing_bar
 
 
