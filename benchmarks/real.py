@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from caesura.core.registry.methods import METHODS
 from jaxtyping import Bool, Float, Int
 
 from benchmarks.labelled import MODELS
@@ -28,6 +27,7 @@ from caesura.core.errors import ParameterError
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse, cut
+from caesura.core.registry.methods import METHODS
 from caesura.core.repetition.repetitions import RepetitionFinder
 from caesura.formats.read import read_animation
 

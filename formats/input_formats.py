@@ -52,23 +52,27 @@ def _begins_with_file(head: bytes) -> bool:
 INPUT_FORMATS = {
     known.name: known
     for known in (
-        InputFormat("glb", "GLB", lambda head: head.startswith(b"glTF"), "header:gltf_header"),
+        InputFormat("glb", "GLB", lambda head: head.startswith(b"glTF"), "file_header:gltf_header"),
         InputFormat(
             "gltf",
             "glTF 2.0",
             lambda head: head.startswith(JSON_STARTS) or _text(head).startswith((b"{", b"[")),
-            "header:gltf_header",
+            "file_header:gltf_header",
         ),
         InputFormat(
             "bvh",
             "BVH",
             lambda head: _text(head).startswith(b"HIERARCHY"),
-            "header:bvh_header",
+            "file_header:bvh_header",
             to_gltf="bvh.gltf_conversion:convert_bvh_to_glb",
         ),
-        InputFormat("zip", "zip", _begins_with_file, "header:zip_header", reader="read:read_zip"),
+        InputFormat("zip", "zip", _begins_with_file, "file_header:zip_header", reader="read:read_zip"),
         InputFormat(
-            "npz", "NumPy archive", lambda head: head.startswith(b"PK"), "header:npz_header", reader="npz.read:read_npz"
+            "npz",
+            "NumPy archive",
+            lambda head: head.startswith(b"PK"),
+            "file_header:npz_header",
+            reader="npz.read:read_npz",
         ),
     )
 }

@@ -79,7 +79,8 @@ def closed_port() -> int:
 def test_help_answers_at_once() -> None:
     """Asking for help loads nothing that computes."""
     script = (
-        "import sys, service.cli; print({'numpy', 'numba', 'sklearn', 'scipy', 'fastapi', 'rq'} & set(sys.modules))"
+        "import sys, caesura.service.commands.cli; "
+        "print({'numpy', 'numba', 'sklearn', 'scipy', 'fastapi', 'rq'} & set(sys.modules))"
     )
     run = subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True)
     assert run.stdout == "set()\n"

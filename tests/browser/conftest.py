@@ -87,11 +87,12 @@ kept_page = pytest.fixture(tab, scope="module", name="kept_page")
 
 @pytest.fixture(scope="session")
 def smooth(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Our own skinned build_figure, as a file."""
+    """Our own skinned figure, as a file."""
     path = tmp_path_factory.mktemp("files") / "smooth.glb"
     # In a process of its own: here every array's shape is checked, which the making of a figure need not wait for.
     code = (
-        "import sys; from caesura.samples import figures; sys.stdout.buffer.write(figures.build_figure('smooth').glb)"
+        "import sys; from caesura.samples.sample_figures import build_figure;"
+        " sys.stdout.buffer.write(build_figure('smooth').glb)"
     )
     path.write_bytes(subprocess.run([sys.executable, "-c", code], check=True, capture_output=True).stdout)
     return path

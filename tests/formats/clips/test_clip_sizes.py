@@ -35,7 +35,7 @@ def test_a_cut_between_keys_adds_two_keys(interpolation, parts):
     glb = clips_of(data, cut_at(opened(data, fps=29), CUTS))
     before, after = len(chunks_of(data)[1]), len(chunks_of(glb)[1])
     poses, times = 2 * parts * (16 + 12) * len(CUTS), 4 * (61 + 2 * len(CUTS)) - 2 * 4 * 61
-    assert after <= before + poses + times + 8
+    assert after <= before + poses + times + 32  # alignment of views that are appended and not packed
     assert worst_miss(opened(data, fps=29), glb, cut_at(opened(data, fps=29), CUTS)) <= CLOSE
 
 
