@@ -122,5 +122,5 @@ def test_a_redis_that_may_not_be_told_to_rewrite_is_asked_again(idle, take, capl
     delete_animation(idle.jobs, idle.blobs, idle.upload(take))
     idle.redis.execute_command("ACL", "SETUSER", "default", "-bgrewriteaof")
     sweep_by_clock(idle.jobs, idle.blobs, 1e9, 1e9, time.time())
-    assert "names of what was deleted stay" in caplog.text
+    assert "the names of deleted data stay" in caplog.text
     assert idle.redis.exists(redis_keys.DELETED_KEY)
