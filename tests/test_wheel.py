@@ -59,7 +59,7 @@ def test_the_wheel_has_the_page_and_no_more(wheel: Path) -> None:
     assert {"caesura/service/static/index.html", "caesura/service/static/vendor/stamp.txt", "caesura/py.typed"} <= set(
         names
     )
-    assert [name for name in names if name.startswith("service/static/vendor/three/")]
+    assert [name for name in names if name.startswith("caesura/service/static/vendor/three/")]
     tops = {name.split("/")[0] for name in names}
     assert tops == {"caesura", f"caesura-{wheel.name.split('-')[1]}.dist-info"}
 

@@ -2,14 +2,13 @@
 
 import subprocess
 import sys
-import zipfile
 from typing import Any
 
 from tests.formats.gltf.test_draco import compressed
 from tests.formats.opening import opened
 from tests.formats.test_bvh import ARM
 from tests.formats.test_npz import npz
-from tests.formats.test_zip import separate, shapes, zipped
+from tests.formats.test_zip import separate, zipped
 from tests.glb import bending_strip
 
 MOMENTS = 40
@@ -45,9 +44,8 @@ def opened_until(data: bytes, at: int) -> int:
     return interruption.calls
 
 
+# Not OBJ and PLY: trimesh, which reads them, and NumPy below it have handlers that pass not everything on.
 FILES = {
-    "obj": lambda: zipped(shapes("obj", 3)),
-    "ply": lambda: zipped(shapes("ply", 3), zipfile.ZIP_STORED),
     "zip": lambda: zipped(separate()),
     "npz": lambda: npz(deflate=True),
     "glb": lambda: bending_strip().glb(),
