@@ -9,6 +9,7 @@ energy                    joint entropy, the energy curve, its key-frames
 methods                   from an analysis to cuts and motions: one folder a family
 registry                  methods and descriptors by name, one line each
 repetition                the repetitions inside every segment
+together                  one set of motions over several takes, and search by example
 analysis                  what is computed once from the vertices
 segmentation              the result of one cut of an analysis
 feature_sequence          segmentation of features alone, without vertices
@@ -20,5 +21,4 @@ kernels                   all compiled functions
 errors, limits            errors in the input, and how large it can be
 progress                  reports of progress
 single_threaded_blas      BLAS and OpenMP on one thread
-control_characters        control characters, escaped for terminals and logs
 """

@@ -34,6 +34,25 @@ def frame_accuracy(labels: Labels, truth: Labels, lengths: Lengths | None = None
     return float(counts[_matching(counts)].sum() / counts.sum())
 
 
+def rand_index(labels: Labels, truth: Labels, lengths: Lengths | None = None) -> float:
+    """Share of pairs of frames that both put together or both keep apart, 0 to 1.
+
+    The reading of the paper's Eq. 6 that uses the truth. With `lengths`, each entry of both stands for so many frames,
+    at most 10⁹ in all. One frame alone agrees.
+    """
+    neither, found, true, both = _count_pairs(labels, truth, lengths)
+    pairs = neither + found + true + both
+    return (neither + both) / pairs if pairs else 1.0
+
+
+def error_measure(labels: Labels, truth: Labels, lengths: Lengths | None = None) -> float:
+    """Share of pairs of frames that one puts together and the other keeps apart, 0 to 1 (Eq. 6, read with the truth).
+
+    One less the Rand index, which the paper's figure 7 shows as accuracy. With `lengths` as there.
+    """
+    return 1.0 - rand_index(labels, truth, lengths)
+
+
 def adjusted_rand_index(labels: Labels, truth: Labels, lengths: Lengths | None = None) -> float:
     """The Rand index corrected for chance: 1 where both agree, 0 expected of chance, down to −0.5 (Hubert 1985).
 

@@ -34,7 +34,8 @@ class Analysis:
     `energy` (frames,), nats, NaN where the windows do not fit. `peaks` are all local maxima of the curve (the
     first of equal neighbours), whatever ω is; `peak_strain` (peaks, T') is the normalised strain there, on the
     triangles themselves or, above the memory budget, on area-weighted patches. `strain_scale` is the strain
-    that counts as 1. `heavy` are the parameters it was made with.
+    that counts as 1. `peak_triangles` are the animation's triangles that the columns of `peak_strain` are of,
+    none where they are patches or pairs of points. `heavy` are the parameters it was made with.
     """
 
     frames: int
@@ -47,11 +48,13 @@ class Analysis:
     features: tuple[Features, ...]
     strain_scale: float
     notices: tuple[Notice, ...] = ()
+    peak_triangles: Int[np.ndarray, "columns"] = field(default_factory=lambda: np.zeros(0, np.int64))
     _derived_values: dict[Any, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def to_bytes(self) -> bytes:
         """As an NPZ: plain arrays and one JSON member, nothing pickled."""
         arrays: dict[str, Any] = {"energy": self.energy, "peaks": self.peaks, "peak_strain": self.peak_strain}
+        arrays["peak_triangles"] = self.peak_triangles
         arrays |= {f"features_{i}": f.values for i, f in enumerate(self.features)}
         meta = {
             "frames": self.frames,
@@ -86,6 +89,7 @@ class Analysis:
                 features=features,
                 strain_scale=meta["strain_scale"],
                 notices=tuple(Notice(**n) for n in meta["notices"]),
+                peak_triangles=stored["peak_triangles"],
             )
 
     def derived(self, make: "Callable[[Analysis], Derived]") -> Derived:

@@ -14,7 +14,7 @@ NEEDS_VERTICES = frozenset({"joint-entropy"})
 """Methods of the energy curve, which is of a surface; there is none without vertices."""
 
 
-def segment_features(
+def segment_feature_sequence(
     values: Real[np.ndarray, "frames D"], parameters: Parameters, *, frame_rate: float
 ) -> Segmentation:
     """The motions of a sequence of features, as `switching` and the compared methods see them; no energy curve.

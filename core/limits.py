@@ -30,6 +30,9 @@ class Limits(BaseModel):
     max_targets: int = Field(10_000, gt=0, description="morph targets of one primitive")
     max_target_vertices: int = Field(50_000_000, gt=0, description="morph targets x vertices")
 
+    max_reader_bytes: int = Field(2 * 2**30, gt=0, description="bytes of memory to read an FBX, an Alembic or a USD")
+    max_reader_seconds: int = Field(300, gt=0, description="processor seconds to read an FBX, an Alembic or a USD")
+
     @classmethod
     def none(cls) -> "Limits":
         """No limits: `caesura segment` on one's own machine."""

@@ -10,13 +10,13 @@ from collections.abc import Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from caesura.core.errors import ParameterError
-from caesura.core.registry.descriptors import DESCRIPTORS
+from caesura.core.registry.descriptors import DESCRIPTORS, PAIR_DISTANCES
 from caesura.core.registry.methods import METHODS
 
-ALGORITHM = "3"
+ALGORITHM = "6"
 
 Auto = Literal["auto"]
 Positive = Field(gt=0, allow_inf_nan=False)
@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 else:
     MethodName = Literal[*METHODS]
     DescriptorName = Literal[*DESCRIPTORS]
+
+
+_NAME = "|".join(DESCRIPTORS)
+_DESCRIPTORS_PATTERN = f"^(auto|({_NAME})(,({_NAME}))*)$"
 
 
 def _heavy(default: Any, description: str, **rules: Any) -> Any:
@@ -58,6 +62,12 @@ class Parameters(BaseModel):
         "strain",
         f"what is measured: {'; '.join(f'`{entry.name}`, {entry.description}' for entry in DESCRIPTORS.values())}",
     )
+    descriptors: str = _heavy(
+        "auto",
+        "what every method sees, one or more of these names and commas; the energy curve is of the first that is of"
+        " triangles. `auto`: `descriptor` and pair-distances",
+        pattern=_DESCRIPTORS_PATTERN,
+    )
     strain: Literal["log", "biot", "max"] = _heavy("log", "measure of strain: Hencky (`log`), Biot, or largest")
     curvature: Literal["gaussian", "mean"] = _heavy("gaussian", "which curvature the descriptor `curvature` is")
     scale_invariant: bool = _heavy(False, "take out a uniform scaling of the whole body before it is measured")
@@ -65,8 +75,8 @@ class Parameters(BaseModel):
         "p99.9", "strain that counts as 1: the 99.9th percentile, the largest, a number, or `none` (1)"
     )
     bins: int = _heavy(10, "levels of strain in the joint distribution (paper: B = 10)", ge=2, le=64)
-    energy: Literal["modified", "joint"] = _heavy(
-        "modified", "joint entropy of windows (Eq. 3) or of neighbours (Eq. 1)"
+    energy: Literal["modified", "joint", "distance"] = _heavy(
+        "modified", "joint entropy of windows (Eq. 3) or of neighbours (Eq. 1), or plain distance of neighbours"
     )
     window_seconds: float = _heavy(1.3, "seconds, length l of a window of Eq. 3 (paper: 1.3 to 1.7)", gt=0, le=600)
 
@@ -79,7 +89,32 @@ class Parameters(BaseModel):
         2.0, "seconds, width ω in which a key-frame is the largest (paper: 2.0 to 2.3)", gt=0, le=600
     )
     threshold: float = _light(0.1, "share of the highest energy below which a peak is no key-frame", ge=0, le=1)
+    details: bool = _light(
+        False, "also return the variance curves of `joint-entropy` (Eq. 5) and the mean strains of its groups (Eq. 4)"
+    )
     seed: int = _light(0, "seed of the random starts", ge=0, lt=2**32)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _name_descriptors_once(cls, given: Any) -> Any:
+        """One spelling for one set, and `descriptor` the first of it; what is no set of names is left to be refused."""
+        if not isinstance(given, dict):
+            return given
+        asked, first = given.get("descriptors", "auto"), given.get("descriptor", "strain")
+        if isinstance(asked, (list, tuple)):
+            asked = ",".join(map(str, asked))
+        if asked == "auto" and first in DESCRIPTORS:
+            asked = f"{first},{PAIR_DISTANCES}"
+        names = dict.fromkeys(asked.split(",")) if isinstance(asked, str) else {}
+        if not names or not DESCRIPTORS.keys() >= names.keys():
+            return {**given, "descriptors": asked}
+        ordered = sorted(names, key=lambda name: not DESCRIPTORS[name].per_triangle)  # stable
+        return {**given, "descriptor": ordered[0], "descriptors": ",".join(ordered)}
+
+    @property
+    def descriptor_names(self) -> tuple[str, ...]:
+        """What is measured: descriptors of triangles first, the one of the energy curve leading."""
+        return tuple(self.descriptors.split(","))
 
     @classmethod
     def parse(cls, given: Mapping[str, Any]) -> "Parameters":

@@ -7,18 +7,21 @@ from threadpoolctl import threadpool_limits
 
 from caesura.core.analysis import Analysis
 from caesura.core.animation import Animation
+from caesura.core.block_pass.body_size import scale_to_rest_size
+from caesura.core.block_pass.descriptor_set import DescriptorSet
 from caesura.core.block_pass.features import extract_features
-from caesura.core.block_pass.measured_body import MeasuredBody
 from caesura.core.block_pass.rest_pose import compute_rest_pose
 from caesura.core.block_pass.strain_at_peaks import measure_strain_at_peaks
 from caesura.core.block_pass.vertex_pass import PassResult, run_block_pass
 from caesura.core.energy.energy_curve import compute_energy_curve, frames_per_window
+from caesura.core.energy.frame_distance import compute_distance_curve
 from caesura.core.energy.key_frames import find_local_maxima
 from caesura.core.errors import InvalidModel
 from caesura.core.parameters import ALGORITHM, Parameters
 from caesura.core.progress import Progress, ignore_progress
 from caesura.core.registry.descriptors import DESCRIPTORS
 from caesura.core.registry.methods import METHODS
+from caesura.core.repetition.loops import LoopFinder, find_loops
 from caesura.core.repetition.repetitions import RepetitionFinder, find_repetitions
 from caesura.core.segmentation import Segmentation, number_by_appearance
 from caesura.core.segmentation_document import Notice, Source
@@ -48,7 +51,9 @@ def analyse(
     with threadpool_limits(1):
         progress("rest shape", 0.0)
         rest = compute_rest_pose(animation, parameters.rest)
-        body, notices = MeasuredBody.of(animation, rest, parameters)
+        if parameters.scale_invariant:
+            animation = scale_to_rest_size(animation, rest)
+        body, notices = DescriptorSet.of(animation, rest, parameters)
         take = run_block_pass(
             animation, body, parameters, threads=threads, progress=progress, memory_bytes=memory_bytes
         )
@@ -59,10 +64,13 @@ def analyse(
             )
         scale = take.scale(parameters.normalize)
         length = frames_per_window(parameters.energy, parameters.window_seconds, animation.frame_rate)
-        bins = take.bins(scale, parameters.bins, progress)
-        energy = compute_energy_curve(bins, animation.frames, length, parameters.bins, take.threads)
+        if parameters.energy == "distance":
+            energy = compute_distance_curve(take.normalised_strains(scale, progress), animation.frames)
+        else:
+            bins = take.bins(scale, parameters.bins, progress)
+            energy = compute_energy_curve(bins, animation.frames, length, parameters.bins, take.threads)
         peaks = find_local_maxima(energy)
-        has_mesh = body.patches.patches > 0
+        peak_strain = measure_strain_at_peaks(animation, body, peaks, scale, threads, progress)
         return Analysis(
             frames=animation.frames,
             frame_rate=animation.frame_rate,
@@ -70,12 +78,14 @@ def analyse(
             heavy=parameters.heavy(),
             energy=energy,
             peaks=peaks,
-            peak_strain=measure_strain_at_peaks(animation, body, peaks, scale, threads, progress),
+            peak_strain=peak_strain,
+            peak_triangles=body.triangles if peak_strain.shape[1] == len(body.triangles) else body.triangles[:0],
             features=extract_features(
                 take.block_pass.projections,
                 take.features,
-                (has_mesh and take.has_strain, take.has_pair_changes),
-                parameters.descriptor if has_mesh else "strain",
+                take.changing,
+                body.names,
+                with_pairs=body.with_pairs,
             ),
             strain_scale=scale,
             notices=animation.notices + notices + _notices(animation, take, length, parameters.descriptor),
@@ -102,6 +112,7 @@ def cut(analysis: Analysis, parameters: Parameters) -> Segmentation:
     found = METHODS[parameters.method].load()(analysis, parameters)
     labels = number_by_appearance(found.labels)
     changes = np.count_nonzero(np.diff(labels))
+    repeats = find_repetitions(analysis.derived(RepetitionFinder.of), labels)
     return Segmentation(
         method=parameters.method,
         algorithm=ALGORITHM,
@@ -116,8 +127,11 @@ def cut(analysis: Analysis, parameters: Parameters) -> Segmentation:
         kind=found.kind,
         transitions=found.transitions,
         candidates=found.candidates,
+        variances=found.variances,
+        clusters=found.clusters,
         notices=analysis.notices + found.notices,
-        repeats=find_repetitions(analysis.derived(RepetitionFinder.of), labels),
+        repeats=repeats,
+        loops=find_loops(analysis.derived(LoopFinder.of), labels, repeats),
     )
 
 

@@ -10,7 +10,7 @@ from unicodedata import normalize
 from pydantic import BaseModel, ConfigDict, Field
 
 from caesura.core.errors import ParameterError
-from caesura.core.segmentation_document import Interval, KeyFrame, Segment, SegmentationDocument, motion_name
+from caesura.core.segmentation_document import Interval, KeyFrame, Loop, Segment, SegmentationDocument, motion_name
 
 LONGEST_NAME = 100
 JOINERS = "\u200c\u200d"
@@ -69,6 +69,7 @@ def _revised_segment(document: SegmentationDocument, edit: Edit, confidence: flo
         motion=edit.motion,
         name=edit.name or motion_name(edit.motion),
         repeats=_kept_repeats(document.segments, edit),
+        best_loop=_kept_loop(document.segments, edit),
         confidence=confidence,
         loop=edit.loop,
         discard=edit.discard,
@@ -85,6 +86,13 @@ def _kept_repeats(before: Iterable[Segment], edit: Edit) -> tuple[Interval, ...]
     inner = [r.start for r in origin.repeats[1:] if edit.start < r.start < edit.end]
     bounds = [edit.start, *inner, edit.end]
     return tuple(Interval(start=a, end=b) for a, b in pairwise(bounds))
+
+
+def _kept_loop(before: Iterable[Segment], edit: Edit) -> Loop | None:
+    """The best that lies within the segment as it is now."""
+    loops = (segment.best_loop for segment in before if segment.best_loop is not None)
+    kept = [loop for loop in loops if edit.start <= loop.start and loop.end <= edit.end]
+    return min(kept, key=lambda loop: loop.seam, default=None)
 
 
 def _assign_key_frames(keys: Iterable[KeyFrame], segments: Sequence[Segment]) -> Iterable[KeyFrame]:

@@ -80,6 +80,14 @@ class Quantisation:
         """The bin of each code, 0 to B − 1: how many `edges` it is above."""
         return np.searchsorted(self.edges(scale, bins), np.arange(CODES)).astype(np.uint8)
 
+    def shares(self, scale: float) -> Float32[np.ndarray, "codes"]:
+        """The middle of each code's values over `scale`, at most 1; 0 for code 0."""
+        bits = (LOWEST + np.arange(CODES + 1, dtype=np.int64)) << SHIFT
+        edges = bits.astype(np.int32).view(np.float32).astype(np.float64) / self.gain
+        middles = np.minimum((edges[:-1] + edges[1:]) / 2 / scale, 1.0)
+        middles[0] = 0.0
+        return middles.astype(np.float32)
+
     def resolves_percentile(self, histogram: Int[np.ndarray, "codes"], percent: float = PERCENTILE) -> bool:
         """Whether the percentile is above code 0, which may stand for all codes below a floor."""
         return int(histogram[0]) <= (int(histogram.sum()) - 1) * percent / 100

@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float32, Int
 
 from caesura.core.animation import Animation
-from caesura.core.block_pass.measured_body import MeasuredBody
+from caesura.core.block_pass.descriptor_set import DescriptorSet
 from caesura.core.frames.blocks import frames_per_block, map_blocks, split_into_blocks, threads_at_once
 from caesura.core.frames.sampled_frames import read_sampled_frames
 from caesura.core.progress import Progress, ignore_progress
@@ -16,7 +16,7 @@ MOST_BYTES = 64 * 2**20
 
 def measure_strain_at_peaks(
     animation: Animation,
-    body: MeasuredBody,
+    body: DescriptorSet,
     frames: Int[np.ndarray, "peaks"],
     scale: float,
     threads: int = 1,
@@ -40,15 +40,15 @@ def measure_strain_at_peaks(
     return out
 
 
-Measure = Callable[[MeasuredBody, np.ndarray, float], np.ndarray]
+Measure = Callable[[DescriptorSet, np.ndarray, float], np.ndarray]
 
 
-def _strain_of_columns(body: MeasuredBody, vertices: np.ndarray, scale: float) -> np.ndarray:
+def _strain_of_columns(body: DescriptorSet, vertices: np.ndarray, scale: float) -> np.ndarray:
     pieces = [np.minimum(tile.T / np.float32(scale), 1) for _, tile in body.surface.tiles(vertices)]
     return np.concatenate(pieces, axis=1)
 
 
-def _strain_of_patches(body: MeasuredBody, vertices: np.ndarray, scale: float) -> np.ndarray:
+def _strain_of_patches(body: DescriptorSet, vertices: np.ndarray, scale: float) -> np.ndarray:
     means = body.patches.empty(len(vertices))
     for columns, tile in body.surface.tiles(vertices):
         body.patches.add(columns, np.minimum(tile / np.float32(scale), 1), means)

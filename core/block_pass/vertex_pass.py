@@ -4,12 +4,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Int, UInt8
+from jaxtyping import Float32, Int, UInt8
 
 from caesura.core.animation import Animation
-from caesura.core.block_pass.block_statistics import BlockPass, BlockStatistics
+from caesura.core.block_pass.block_measurement import BlockMeasurement, BlockPass
+from caesura.core.block_pass.descriptor_set import DescriptorSet
 from caesura.core.block_pass.features import learn_feature_basis
-from caesura.core.block_pass.measured_body import MeasuredBody
 from caesura.core.block_pass.quantisation import CODES, Quantisation, find_normalising_strain
 from caesura.core.block_pass.range_estimate import RangeEstimate
 from caesura.core.frames.blocks import Block, frames_per_block, map_blocks, split_into_blocks, threads_at_once
@@ -36,7 +36,18 @@ class PassResult:
     largest: float
     above_noise: int
     largest_pair_change: float
-    features: tuple[np.ndarray, np.ndarray]
+    features: tuple[np.ndarray, ...]
+    others_above_noise: tuple[int, ...] = ()
+
+    @property
+    def changing(self) -> tuple[bool, ...]:
+        """Of each of `features`, whether it changes by more than rounding."""
+        body, frames = self.block_pass.body, self.blocks[-1][1]
+        others = (
+            above > STILL_SHARE * frames * other.descriptor.columns
+            for above, other in zip(self.others_above_noise, body.others, strict=True)
+        )
+        return (body.patches.patches > 0 and self.has_strain, *others, self.has_pair_changes)
 
     @property
     def has_strain(self) -> bool:
@@ -76,10 +87,21 @@ class PassResult:
 
         return map_blocks(bins, self.blocks, self.threads, progress=progress, stage="energy", total=len(self.blocks))
 
+    def normalised_strains(
+        self, scale: float, progress: Progress = ignore_progress
+    ) -> Iterator[Float32[np.ndarray, "frames columns"]]:
+        """Every strain over `scale`, at most 1 and good to a part in 8,192, in blocks of frames."""
+        shares = self.block_pass.quantisation.shares(scale)
+
+        def strains(block: Block) -> np.ndarray:
+            return np.asarray(shares[self.block_pass.codes(block)])
+
+        return map_blocks(strains, self.blocks, self.threads, progress=progress, stage="energy", total=len(self.blocks))
+
 
 def run_block_pass(
     animation: Animation,
-    body: MeasuredBody,
+    body: DescriptorSet,
     parameters: Parameters,
     *,
     threads: int = 1,
@@ -102,6 +124,7 @@ def run_block_pass(
         learn_feature_basis(animation, body, threads, progress),
         np.empty(min(animation.frames * body.surface.columns, memory_bytes // 2), np.uint16),
         np.zeros(CODES, np.int64),
+        tuple(other.descriptor.noise(estimate.reach) for other in body.others),
     )
     blocks = split_into_blocks(animation.frames, frames_per_block(animation.vertex_count))
     used_threads = threads_at_once(threads, animation.vertex_count, body.surface.columns)
@@ -130,7 +153,7 @@ def _better_quantisation(take: PassResult, parameters: Parameters) -> Quantisati
 
 
 def _combine(
-    block_pass: BlockPass, blocks: list[Block], threads: int, measured: Iterable[BlockStatistics]
+    block_pass: BlockPass, blocks: list[Block], threads: int, measured: Iterable[BlockMeasurement]
 ) -> PassResult:
     """The statistics of a take, in order, as one."""
     statistics = list(measured)
@@ -142,8 +165,6 @@ def _combine(
         max(block.largest for block in statistics),
         sum(block.above_noise for block in statistics),
         max(block.largest_pair_change for block in statistics),
-        (
-            np.concatenate([block.features[0] for block in statistics]),
-            np.concatenate([block.features[1] for block in statistics]),
-        ),
+        tuple(np.concatenate(kind) for kind in zip(*(block.features for block in statistics), strict=True)),
+        tuple(sum(above) for above in zip(*(block.others_above_noise for block in statistics), strict=True)),
     )

@@ -46,7 +46,7 @@ class DescriptorInput:
     def mesh(self) -> Mesh:
         """The same triangles, in the same order, welded."""
         triangles = self.animation.triangles[self.strain.triangles]
-        return Mesh.of(self.rest, triangles, weld_vertices(self.animation, self.rest), self.parameters.scale_invariant)
+        return Mesh.of(self.rest, triangles, weld_vertices(self.animation, self.rest))
 
     @cached_property
     def pairs(self) -> PairDistances:

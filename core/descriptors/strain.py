@@ -52,7 +52,6 @@ class TriangleStrain:
     areas: Float64[np.ndarray, "columns"]
     thinness: Float64[np.ndarray, "columns"]
     measure: int
-    scale_invariant: bool
     parts: tuple[Tile, ...]
 
     @classmethod
@@ -67,7 +66,6 @@ class TriangleStrain:
         triangles: Int[np.ndarray, "T 3"],
         order: Int[np.ndarray, "T"],
         measure: str = "log",
-        scale_invariant: bool = False,
     ) -> "TriangleStrain":
         """Prepare the rest triangles in float64; `order` is a coherent order, so that a tile shares its vertices.
 
@@ -85,7 +83,7 @@ class TriangleStrain:
         shapes = np.stack([1 / a, 1 / c, along / a / a / c], axis=1).astype(np.float32)
         parts = tuple(_tile(corners[i : i + TILE], shapes[i : i + TILE]) for i in range(0, len(corners), TILE))
         left_out = len(triangles) - len(corners)
-        return cls(len(corners), left_out, order[kept], doubled / 2, 1 / c, MEASURES[measure], scale_invariant, parts)
+        return cls(len(corners), left_out, order[kept], doubled / 2, 1 / c, MEASURES[measure], parts)
 
     def tiles(
         self, block: Float32[np.ndarray, "frames V 3"]
@@ -94,7 +92,6 @@ class TriangleStrain:
 
         A stretch below a thousandth counts as a thousandth.
         """
-        scale = _to_width(self._scale(block))
         rows = np.empty((max((len(part.members) for part in self.parts), default=0), 3, WIDTH), np.float32)
         tile = np.empty((TILE, WIDTH), np.float32)
         for number, part in enumerate(self.parts):
@@ -103,19 +100,15 @@ class TriangleStrain:
                 width = min(len(block) - start, WIDTH)
                 descriptors.gather_rows(block[start : start + width], part.members, own)
                 own[:, :, width:] = own[:, :, width - 1 : width]  # frames that are not there repeat the last
-                lines, factors = own.reshape(-1, 3 * WIDTH), scale[start : start + WIDTH]
-                descriptors.strain_tile(lines, part.corners, part.shapes, factors, self.measure, out)
+                descriptors.strain_tile(own.reshape(-1, 3 * WIDTH), part.corners, part.shapes, self.measure, out)
                 if len(block) != WIDTH:
                     pieces.append(out[:, :width].copy())
             yield slice(number * TILE, number * TILE + len(out)), np.concatenate(pieces, axis=1) if pieces else out
 
     def sample_triangles(self, most: int) -> "TriangleStrain":
-        """About so many of the triangles, evenly spread and packed anew: enough for a look.
-
-        All of them where every frame's whole area is needed.
-        """
+        """About so many of the triangles, evenly spread and packed anew: enough for a look."""
         step = self.columns // most
-        if self.scale_invariant or step <= 1:
+        if step <= 1:
             return self
         corners = np.concatenate([part.members[part.corners[::step]] for part in self.parts])
         shapes = np.concatenate([part.shapes[::step] for part in self.parts])
@@ -125,24 +118,6 @@ class TriangleStrain:
     def noise(self, reach: float) -> Float32[np.ndarray, "columns"]:
         """The strain that rounding alone gives each triangle where coordinates go up to `reach`."""
         return (ROUNDING * reach * self.thinness).astype(np.float32)
-
-    def _scale(self, block: Float32[np.ndarray, "frames V 3"]) -> Float32[np.ndarray, "frames"]:
-        """What the squared stretches are multiplied by: rest area over the frame's, or 1."""
-        if not self.scale_invariant:
-            return np.ones(len(block), np.float32)
-        twice = np.zeros(len(block), np.float64)
-        for part in self.parts:
-            rows = np.empty((len(part.members), 3, len(block)), np.float32)
-            descriptors.gather_rows(block, part.members, rows)
-            descriptors.add_areas(rows, part.corners, twice)
-        smallest = np.finfo(np.float32).tiny * self.areas.sum()
-        return np.asarray(np.minimum(2 * self.areas.sum() / np.maximum(twice, smallest), 1e12), np.float32)
-
-
-def _to_width(values: Float32[np.ndarray, "frames"]) -> Float32[np.ndarray, "whole"]:
-    """The values with the last one repeated up to a multiple of `WIDTH`."""
-    missing = -len(values) % WIDTH
-    return np.pad(values, (0, missing), mode="edge") if missing else values
 
 
 def _longest_edge_first(rest: Float[np.ndarray, "V 3"], triangles: Int[np.ndarray, "T 3"]) -> Int[np.ndarray, "T 3"]:

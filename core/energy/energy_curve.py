@@ -16,9 +16,14 @@ from caesura.core.energy.joint_entropy import (
 from caesura.core.frames.blocks import map_blocks
 
 
-def frames_per_window(energy: Literal["modified", "joint"], window_seconds: float, frame_rate: float) -> int:
-    """l, the length of a window in frames: 1 for neighbours (`joint`), for Eq. 1 is Eq. 3 with windows of one frame."""
-    return 1 if energy == "joint" else max(round(window_seconds * frame_rate), 1)
+def frames_per_window(
+    energy: Literal["modified", "joint", "distance"], window_seconds: float, frame_rate: float
+) -> int:
+    """l, the length of a window in frames: 1 for neighbours (`joint`), for Eq. 1 is Eq. 3 with windows of one frame.
+
+    Plain distances (`distance`) are of neighbours too.
+    """
+    return max(round(window_seconds * frame_rate), 1) if energy == "modified" else 1
 
 
 def compute_energy_curve(

@@ -107,7 +107,7 @@ _MODERATE_BITS = MODERATE.view(np.int32)
 
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
 def _moderate_log_strains(
-    rows: Floats, corners: Indices, shapes: Floats, scale: Floats, scratch: Floats, tile: Floats, tops: Indices
+    rows: Floats, corners: Indices, shapes: Floats, scratch: Floats, tile: Floats, tops: Indices
 ) -> None:
     """tile[t, f] = log strain without a logarithm, good to a part in a million up to `MODERATE`.
 
@@ -135,7 +135,7 @@ def _moderate_log_strains(
             e, b2, g = scratch[f], scratch[Y + f], scratch[Z + f]
             total, half, squared_b2 = e + g, e - g, b2 * b2
             apart = half * half + squared_b2  # (λ1 − λ2)²
-            product = (e * g - np.float32(0.25) * squared_b2) * (scale[f] * scale[f])
+            product = e * g - np.float32(0.25) * squared_b2
             # y = x / (1 − x / 2) of both, over one denominator
             below_q = total * total - np.float32(0.5) * apart
             below_p = product * (np.float32(0.5) * product + np.float32(3)) + np.float32(0.5)
@@ -153,9 +153,7 @@ def _moderate_log_strains(
 
 
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
-def _squared_stretches(
-    rows: Floats, corners: Indices, shape: Floats, scale: Floats, larger: Floats, other: Floats
-) -> None:
+def _squared_stretches(rows: Floats, corners: Indices, shape: Floats, larger: Floats, other: Floats) -> None:
     """Both squared stretches of one triangle in every frame, none below `SQUARED_FLOOR`.
 
     With the edges of the triangle written in its orthonormal rest frame, the columns of F are u = e1 / a and
@@ -173,15 +171,14 @@ def _squared_stretches(
         g = wx * wx + wy * wy + wz * wz
         half = np.float32(0.5) * (e - g)
         most = np.float32(0.5) * (e + g) + np.sqrt(half * half + b * b)
-        least = (e * g - b * b) / (most if most > SQUARED_FLOOR else SQUARED_FLOOR) * scale[f]
-        most *= scale[f]
+        least = (e * g - b * b) / (most if most > SQUARED_FLOOR else SQUARED_FLOOR)
         larger[f] = most if most > SQUARED_FLOOR else SQUARED_FLOOR
         other[f] = least if least > SQUARED_FLOOR else SQUARED_FLOOR
 
 
 @njit(nogil=True, cache=True, fastmath=FAST, error_model="numpy")
-def strain_tile(rows: Floats, corners: Indices, shapes: Floats, scale: Floats, measure: int, tile: Floats) -> None:
-    """tile[t, f]: strain of each triangle; `scale[f]` times the squared stretches.
+def strain_tile(rows: Floats, corners: Indices, shapes: Floats, measure: int, tile: Floats) -> None:
+    """tile[t, f]: strain of each triangle.
 
     `rows` (vertices, 3 · WIDTH) hold the frames of x, then of y, then of z.
 
@@ -190,12 +187,12 @@ def strain_tile(rows: Floats, corners: Indices, shapes: Floats, scale: Floats, m
     scratch, tops = np.empty(3 * WIDTH, np.float32), np.empty(corners.shape[0], np.int32)
     larger, other = scratch[:Y], scratch[Y:Z]
     if measure == LOG:
-        _moderate_log_strains(rows, corners, shapes, scale, scratch, tile, tops)
+        _moderate_log_strains(rows, corners, shapes, scratch, tile, tops)
     for t in range(corners.shape[0]):
         if measure == LOG and tops[t] <= _MODERATE_BITS:
             continue
         strain = tile[t]
-        _squared_stretches(rows, corners[t], shapes[t], scale, larger, other)
+        _squared_stretches(rows, corners[t], shapes[t], larger, other)
         if measure == LOG:
             for f in range(WIDTH):
                 most, least = _ln(larger[f]), _ln(other[f])

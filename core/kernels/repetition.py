@@ -1,4 +1,4 @@
-"""The compiled loop of the beats."""
+"""The compiled loop that finds where repetitions end."""
 
 import numpy as np
 from numba import njit

@@ -24,11 +24,15 @@ def clip_costs(
     """out[s, n]: what a clip of n samples from sample s costs; infinite where it is too short or does not fit.
 
     ln of the distance from its last pose to its first, against `speed`, the distance of one sample at the usual speed,
-    or against the farthest pose from its first where that is nearer; + `spread_weight` · n · ½ Σ ln variance of each
-    direction. `sums` and `squares` are running sums of the poses and of their squares. The pose after the last one
-    may close the clip as well, for some timelines share it between neighbours.
+    or against the farthest pose from its first where that is nearer; + `spread_weight` · n · ½ Σ ln of the variance in
+    each direction, against that of the whole take. `sums` and `squares` are running sums of the poses and of their
+    squares. The pose after the last one may close the clip as well, for some timelines share it between neighbours.
     """
     samples, size = poses.shape
+    whole = 0.0
+    for d in range(size):
+        mean = sums[samples, d] / samples
+        whole += np.log(max(squares[samples, d] / samples - mean * mean, 0.0) + floor)
     longest = out.shape[1] - 1
     for s in range(samples):
         farthest, seen = 0.0, s
@@ -39,7 +43,7 @@ def clip_costs(
                 farthest = max(farthest, _square(poses, s, seen))
                 seen += 1
             open_square = min(_square(poses, s, e - 1), _square(poses, s, min(e, samples - 1)))
-            spread = 0.0
+            spread = -whole
             for d in range(size):
                 mean = (sums[e, d] - sums[s, d]) / n
                 variance = (squares[e, d] - squares[s, d]) / n - mean * mean

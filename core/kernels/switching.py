@@ -35,7 +35,7 @@ def viterbi(cost: Floats, penalty: float, labels: Ints) -> float:
 
 
 @njit(nogil=True, cache=True, fastmath=FAST)
-def greedy_partition(signal: Floats, squares: Floats, penalty: float, longest: int, start_of: Ints) -> None:
+def least_cost_partition(signal: Floats, squares: Floats, penalty: float, longest: int, start_of: Ints) -> None:
     """start_of[e]: where the last piece begins in the best partition of the first e steps.
 
     Least Σ squared distance of each piece to its mean + penalty · pieces, pieces of at most `longest` steps; exact,

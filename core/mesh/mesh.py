@@ -15,14 +15,13 @@ class Mesh:
     """P points and the triangles between them, in the order of a surface's columns.
 
     `members` (P,) is the vertex of the file that stands for each point; `rest` (P, 3) and `areas` (columns,) are
-    at rest. With `scale_invariant` every frame is scaled to the area at rest.
+    at rest.
     """
 
     members: Int32[np.ndarray, "P"]
     corners: Int32[np.ndarray, "columns 3"]
     rest: Float32[np.ndarray, "P 3"]
     areas: Float64[np.ndarray, "columns"]
-    scale_invariant: bool
 
     @classmethod
     def of(
@@ -30,7 +29,6 @@ class Mesh:
         rest: Float32[np.ndarray, "V 3"],
         triangles: Int[np.ndarray, "columns 3"],
         same: Int[np.ndarray, "V"],
-        scale_invariant: bool = False,
     ) -> "Mesh":
         """The triangles, each of which has area at rest, with vertex v taken for `same[v]`."""
         members, corners = np.unique(same[triangles], return_inverse=True)
@@ -38,18 +36,12 @@ class Mesh:
         place = rest[members].astype(np.float64)
         origin, first, second = place[corners.T]
         areas = np.linalg.norm(np.cross(first - origin, second - origin), axis=1) / 2
-        return cls(members.astype(np.int32), corners, rest[members], areas, scale_invariant)
+        return cls(members.astype(np.int32), corners, rest[members], areas)
 
     def rows(self, block: Float32[np.ndarray, "frames V 3"]) -> Float32[np.ndarray, "P 3 frames"]:
         """Where the points are, the frames innermost."""
         rows = np.empty((len(self.members), 3, len(block)), np.float32)
         descriptors.gather_rows(block, self.members, rows)
-        if self.scale_invariant:
-            twice = np.zeros(len(block), np.float64)
-            descriptors.add_areas(rows, self.corners, twice)
-            smallest = np.finfo(np.float32).tiny * self.areas.sum()
-            scale = np.sqrt(np.minimum(2 * self.areas.sum() / np.maximum(twice, smallest), 1e12))
-            rows *= scale.astype(np.float32)
         return rows
 
     def rows_at_rest(self) -> Float32[np.ndarray, "P 3 1"]:

@@ -33,12 +33,14 @@ class DescriptorEntry:
         return made
 
 
+PAIR_DISTANCES = "pair-distances"
+
 DESCRIPTORS = {
     entry.name: entry
     for entry in (
         DescriptorEntry("strain", "strain:TriangleStrain", "how far each triangle is stretched (paper, section 3)"),
         DescriptorEntry(
-            "pair-distances", "pair_strain:PairStrain", "how far pairs of points are stretched", per_triangle=False
+            PAIR_DISTANCES, "pair_strain:PairStrain", "how far pairs of points are stretched", per_triangle=False
         ),
         DescriptorEntry("geodesic", "geodesic:Geodesic", "how far it is along the surface to the rest of the body"),
         DescriptorEntry("heat-kernel", "heat_kernel:HeatKernel", "how much of a drop of heat stays where it fell"),

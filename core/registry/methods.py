@@ -68,5 +68,47 @@ METHODS = {
             "Compared with: aligned cluster analysis in two levels, moves and motions. Up to 5,000 frames.",
             needs_motions=True,
         ),
+        Method(
+            "pca",
+            "barbic2004.pca:pca",
+            "Compared with: cuts where poses leave the hyperplane of those before, then grouped.",
+            needs_motions=True,
+        ),
+        Method(
+            "ppca",
+            "barbic2004.ppca:ppca",
+            "Compared with: cuts where the distribution of poses changes, then grouped.",
+            needs_motions=True,
+        ),
+        Method(
+            "gmm",
+            "barbic2004.gmm:gmm",
+            "Compared with: frames by the Gaussian of a mixture they are likeliest of. Up to 50,000 frames.",
+            needs_motions=True,
+        ),
+        Method(
+            "hmm",
+            "hidden_markov:hidden_markov",
+            "Compared with: a hidden Markov model whose states are windows. Up to 10,000 frames.",
+            needs_motions=True,
+        ),
+        Method(
+            "velocity-minima",
+            "velocity_minima:velocity_minima",
+            "Compared with: cuts where the body all but stops, then grouped.",
+            needs_motions=True,
+        ),
+        Method(
+            "genetic",
+            "reconstruction.genetic:genetic",
+            "Compared with: key-frames of least reconstruction error, bred, then grouped. Up to 20,000 frames.",
+            needs_motions=True,
+        ),
+        Method(
+            "curve-simplification",
+            "reconstruction.curve_simplification:curve_simplification",
+            "Compared with: key-frames where the curve of poses strays most, then grouped. Up to 50,000 frames.",
+            needs_motions=True,
+        ),
     )
 }

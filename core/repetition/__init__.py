@@ -5,4 +5,5 @@ neutral_pose      where a performer begins and ends each repetition
 period            how long a repetition takes, by self-similarity
 repetition_ends   where each repetition ends, for no two take equally long
 repetitions       the repetitions of every segment of a take
+loops             the whole repetitions that make the best loop
 """
