@@ -21,8 +21,8 @@ LabelFrames = Callable[[Float[np.ndarray, "frames D"], float, int, int], Int[np.
 def cut_by_compared_method(analysis: Analysis, parameters: Parameters, divide: LabelFrames, most_frames: int) -> Cut:
     """Cut by `divide`. Nothing deforms: one segment. How sure a cut is, these methods do not say.
 
-    Raises `ParameterError`: `motions-needed` where K is not given, `too-long-for-method` above `most_frames`, because
-    time grows with the square of the frames.
+    Raises `ParameterError`: `motions-needed` where K is not given, `too-long-for-method` above `most_frames`, above
+    which it would take minutes or gigabytes.
     """
     window = round(parameters.keyframe_window_seconds * analysis.frame_rate)
     keys = extract_key_frames(analysis.energy, analysis.peaks, window, parameters.threshold)
@@ -33,8 +33,8 @@ def cut_by_compared_method(analysis: Analysis, parameters: Parameters, divide: L
     if analysis.frames > most_frames:
         raise ParameterError(
             "too-long-for-method",
-            f"The method {parameters.method} compares every frame with every other, and takes at most {most_frames};"
-            f" the take has {analysis.frames}. Send a lower fps, or method=switching.",
+            f"The method {parameters.method} takes at most {most_frames} frames; the take has {analysis.frames}."
+            " Send a lower fps, or method=switching.",
             parameter="method",
             limit=most_frames,
             actual=analysis.frames,

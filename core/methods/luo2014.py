@@ -7,7 +7,7 @@ from scipy.spatial.distance import squareform
 
 from caesura.core.analysis import Analysis
 from caesura.core.kernels import dissimilarity
-from caesura.core.methods.compared_methods import cut_by_compared_method
+from caesura.core.methods.comparison_steps import cut_by_compared_method
 from caesura.core.parameters import Parameters
 from caesura.core.segmentation import Cut
 

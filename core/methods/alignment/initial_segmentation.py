@@ -14,7 +14,7 @@ DRAWS = 50
 
 
 @dataclass(frozen=True)
-class InitialSegmentation:
+class InitialSegmenter:
     """What all first segmentations of the same samples have in common; `start` makes one."""
 
     kernel: Float[np.ndarray, "samples samples"]
@@ -33,7 +33,7 @@ class InitialSegmentation:
         lengths: SegmentLengths,
         *,
         as_measured: bool = False,
-    ) -> "InitialSegmentation":
+    ) -> "InitialSegmenter":
         """Embeds the samples by propagated likeness. `as_measured`: lengths as the authors' program takes them."""
         lengths = lengths.within(len(kernel))
         propagated = np.zeros_like(kernel)

@@ -1,7 +1,7 @@
 """How seconds become samples: lengths that the authors count at 120 frames a second, at any other rate."""
 
 
-def frames_per_sample(frame_rate: float) -> int:
+def most_frames_per_sample(frame_rate: float) -> int:
     """The longest run of like frames that counts as one sample: 5 at 120 frames a second, as the authors have it."""
     return max(round(frame_rate / 24), 1)
 

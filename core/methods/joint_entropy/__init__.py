@@ -3,4 +3,5 @@
 method      the steps in order
 clustering  key-frames into motions
 boundaries  where one motion ends and the next begins
+details     what it saw on its way, where that is asked for
 """

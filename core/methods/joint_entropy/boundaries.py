@@ -10,11 +10,13 @@ def find_boundary(energy: Float[np.ndarray, "frames"], left: int, right: int) ->
     Both ends belong to both sides; the first of equal frames. Neighbours (right = left + 1): `right`. By
     prefix sums, O(right − left).
     """
-    if right - left < 2:
-        return right
+    return left + 1 + int(np.argmin(variance_curve(energy, left, right))) if right - left > 1 else right
+
+
+def variance_curve(energy: Float[np.ndarray, "frames"], left: int, right: int) -> Float[np.ndarray, "between"]:
+    """ξ^m = var(H[left..m]) + var(H[m..right]) at every frame between the two (Eq. 5); the unit of H squared."""
     between = energy[left : right + 1].astype(np.float64)
-    cost = _prefix_variances(between) + _prefix_variances(between[::-1])[::-1]
-    return left + 1 + int(np.argmin(cost[1:-1]))
+    return np.asarray((_prefix_variances(between) + _prefix_variances(between[::-1])[::-1])[1:-1])
 
 
 def _prefix_variances(values: Float[np.ndarray, "n"]) -> Float[np.ndarray, "n"]:

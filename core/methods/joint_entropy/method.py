@@ -1,5 +1,7 @@
 """The paper's method: key-frames of the energy curve, K-means on their strain, boundaries by Eq. 5."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from caesura.core.analysis import Analysis
@@ -11,6 +13,7 @@ from caesura.core.methods.joint_entropy.clustering import (
     cluster_with_chosen_count,
     count_distinct,
 )
+from caesura.core.methods.joint_entropy.details import mean_strains, variances_between
 from caesura.core.parameters import Parameters
 from caesura.core.segmentation import Cut
 from caesura.core.segmentation_document import Notice, Score
@@ -28,7 +31,14 @@ def joint_entropy(analysis: Analysis, parameters: Parameters) -> Cut:
     labels = label_frames_between_keys(analysis.energy, keys, clusters.labels)
     changes = np.flatnonzero(np.diff(clusters.labels))
     confidence = np.minimum(clusters.margin[changes], clusters.margin[changes + 1])
-    return Cut(labels, keys, confidence, scores, notices)
+    cut = Cut(labels, keys, confidence, scores, notices)
+    if not parameters.details:
+        return cut
+    return replace(
+        cut,
+        variances=variances_between(analysis, keys, clusters.labels),
+        clusters=mean_strains(analysis, keys, clusters.labels),
+    )
 
 
 def _clusters(

@@ -5,11 +5,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from caesura.core.analysis import Analysis
-from caesura.core.methods.sheets.division import CLIP, Division, Timeline
-from caesura.core.methods.sheets.recognition import is_sheet
+from caesura.core.methods.sheets.clip_division import CLIP, Division, Timeline
+from caesura.core.methods.sheets.sheet_detection import is_clip_sheet
 from caesura.core.parameters import Parameters
 from caesura.core.segmentation import Cut
 from caesura.core.segmentation_document import Notice
+
+LEAST = 0.1
+"""Candidates that are less likely are not listed."""
 
 
 @dataclass(frozen=True)
@@ -26,8 +29,9 @@ class Sheet:
         timeline = Timeline.of(analysis)
         if timeline is None:
             return None
+        timeline = timeline.without_arcs(timeline.divided())
         division = timeline.divided()
-        return cls(timeline, division, is_sheet(timeline, division))
+        return cls(timeline, division, is_clip_sheet(timeline, division))
 
 
 def cut_sheet(analysis: Analysis, parameters: Parameters, cut: Cut) -> Cut | None:
@@ -50,7 +54,16 @@ def cut_sheet(analysis: Analysis, parameters: Parameters, cut: Cut) -> Cut | Non
         notices=_notices(parameters, len(starts)),
         kind="sheet",
         transitions=tuple((start, end) for start, end in between if start < end),
+        candidates=_candidates(sheet.timeline, division),
     )
+
+
+def _candidates(timeline: Timeline, division: Division) -> tuple[tuple[int, float], ...]:
+    """Where a clip is nearly better off as two, and how likely it is two, the likeliest first."""
+    frames, gains = timeline.best_splits(division)
+    likely = gains / (gains + CLIP)
+    order = np.argsort(-likely, kind="stable")
+    return tuple((int(frames[i]), float(likely[i])) for i in order if likely[i] >= LEAST)
 
 
 def _notices(parameters: Parameters, clips: int) -> tuple[Notice, ...]:

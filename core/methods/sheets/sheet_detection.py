@@ -7,25 +7,25 @@ themselves, and each is there once.
 import numpy as np
 from jaxtyping import Float
 
-from caesura.core.methods.sheets.division import Division, Timeline
+from caesura.core.methods.sheets.clip_division import Division, Timeline
 
-CLOSED = 0.05
+CLOSED = 0.015
 """Distance of a closing pose from the first, in distances of a thirtieth of a second at the usual speed. Clips drawn by
-artists lie below .005 in the median, takes joined from clips above .06, performances above 2."""
+artists lie below .005 in the median, takes joined from clips above .04, performances above 2."""
 TWIN = 0.5
 """Two clips are twins where they lie so near, pose for pose, against how far each strays from its mean pose."""
-MOST_TWINS = 1 / 3
+MOST_TWINS = 0.3
 PLACES = 32
 
 
-def is_sheet(timeline: Timeline, division: Division) -> bool:
+def is_clip_sheet(timeline: Timeline, division: Division) -> bool:
     """Whether most clips close on themselves, and few are there twice."""
     if len(division.starts) < 2:
         return False
-    return float(np.median(division.openness)) <= CLOSED and count_twins(timeline, division) <= MOST_TWINS
+    return float(np.median(division.openness)) <= CLOSED and share_of_twin_clips(timeline, division) <= MOST_TWINS
 
 
-def count_twins(timeline: Timeline, division: Division) -> float:
+def share_of_twin_clips(timeline: Timeline, division: Division) -> float:
     """The share of the clips that are much like another, whatever their speed."""
     clips = np.stack([
         _resampled(timeline.poses[start // timeline.stride : -(-end // timeline.stride)])

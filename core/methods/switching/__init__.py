@@ -9,6 +9,7 @@ switching_k_means  the alternation: assign by Viterbi, take means, until nothing
 short_segments     segments that only the blur of a window makes
 transitions        what is too short to be a motion: the way from one to the next
 neighbour_graph    moments, each linked to those most like it; the normalised cut of a labelling
+subdivision        a motion seen by itself, which may be two
 motion_count       the labelling of the least cut, and how many motions there are
 refinement         cuts moved to the frame
 cut_confidence     how sure each cut is

@@ -69,7 +69,7 @@ def _segment_bounds(
     """Where the stretches begin, and where the last one ends."""
     squares = np.concatenate([[0.0], np.cumsum(np.einsum("sd,sd->s", signal.values, signal.values))])
     start_of = np.zeros(len(total), np.int64)
-    switching.greedy_partition(total, squares, penalty, signal.steps(LONGEST_SECONDS), start_of)
+    switching.least_cost_partition(total, squares, penalty, signal.steps(LONGEST_SECONDS), start_of)
     bounds = [len(signal.values)]
     while bounds[-1] > 0:
         bounds.append(int(start_of[bounds[-1]]))

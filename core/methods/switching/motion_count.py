@@ -10,12 +10,24 @@ from jaxtyping import Int
 from caesura.core.agreement import adjusted_rand_index
 from caesura.core.methods.switching.neighbour_graph import NeighbourGraph
 from caesura.core.methods.switching.refinement import Refinement
+from caesura.core.methods.switching.subdivision import subdivide_motions
 from caesura.core.methods.switching.transitions import remove_transitions
 from caesura.core.methods.switching.views import View, Views
 
 WORTH = 0.34
 """What one motion more may add to the normalised cut. A true motion adds less than .3 on nine takes of ten, the half of
 one more than .4."""
+USUAL, LEAST_WORTH = 6.0, 0.1
+"""And at most six times what those before it added on average, but for a tenth: the half of a motion that is seldom
+interrupted adds little, and its neighbours less."""
+DEAR, MOST_WORTH = 2.0, 0.44
+"""In a short take every motion adds much: twice what those before it added is still a motion, up to this."""
+SURENESS = 0.1
+"""A subdivision must be cut so much less: it was looked for until something was found."""
+BEFORE_REFINEMENT = 0.45
+"""A subdivision that adds more before its cuts are refined, which takes time, adds too much after."""
+LESS = 2
+"""Labellings of up to so many motions less are subdivided where a number is asked for."""
 BEYOND = 4
 """So many more motions are asked of a view than are to be found, for some of them may be transitions."""
 PATIENCE = 5
@@ -29,7 +41,8 @@ MOST = 200
 class Labelling:
     """Labels of frames, the transitions that were taken out, the view they were found in, and their normalised cut.
 
-    `cost` is what the view leaves unexplained.
+    `cost` is what the view leaves unexplained. `subdivided`: how many motions were cut into two when seen
+    by themselves.
     """
 
     labels: Int[np.ndarray, "frames"]
@@ -38,6 +51,17 @@ class Labelling:
     cut: float
     motions: int
     cost: float
+    subdivided: int = 0
+
+    @property
+    def segments(self) -> int:
+        """How many segments it has."""
+        return int(np.count_nonzero(np.diff(self.labels))) + 1
+
+    @property
+    def rank(self) -> float:
+        """By what labellings of as many motions are compared, the least first."""
+        return self.cut + SURENESS * self.subdivided
 
 
 @dataclass(frozen=True)
@@ -47,6 +71,7 @@ class Labellings:
     views: Views
     refinement: Refinement
     _known: dict[tuple[View, int], Labelling] = field(default_factory=dict)
+    _divided: dict[bytes, tuple[Labelling, ...]] = field(default_factory=dict)
 
     @cached_property
     def graph(self) -> NeighbourGraph:
@@ -58,12 +83,29 @@ class Labellings:
         if (view, motions) not in self._known:
             viewed = self.views.by(view)
             settled = viewed.settled(motions)
-            refined = self.refinement.moved(viewed.signal.per_frame(settled.labels))
-            cleared = remove_transitions(refined, self.views.frames.frame_rate)
-            count = len(np.unique(cleared.labels))
-            cut = self.graph.cut(cleared.labels)
-            self._known[view, motions] = Labelling(cleared.labels, cleared.transitions, view, cut, count, settled.cost)
+            self._known[view, motions] = self._judged(view, viewed.signal.per_frame(settled.labels), settled.cost)
         return self._known[view, motions]
+
+    def subdivisions(self, whole: Labelling) -> tuple[Labelling, ...]:
+        """The labelling with one of its motions cut into two, each in turn, where that leaves more motions."""
+        key = whole.labels.tobytes()
+        if key not in self._divided:
+            judged = (
+                self._judged(view, labels, whole.cost, whole.subdivided + 1)
+                for view, labels in subdivide_motions(whole.labels, self.views)
+                if self.graph.cut(labels) - whole.cut < BEFORE_REFINEMENT
+            )
+            self._divided[key] = tuple(
+                found for found in judged if found.motions > whole.motions and found.segments > whole.segments
+            )
+        return self._divided[key]
+
+    def _judged(self, view: View, labels: Int[np.ndarray, "frames"], cost: float, subdivided: int = 0) -> Labelling:
+        refined = self.refinement.moved(labels)
+        cleared = remove_transitions(refined, self.views.frames.frame_rate)
+        count = len(np.unique(cleared.labels))
+        cut = self.graph.cut(cleared.labels)
+        return Labelling(cleared.labels, cleared.transitions, view, cut, count, cost, subdivided)
 
 
 @dataclass(frozen=True)
@@ -71,7 +113,7 @@ class MotionCountSearch:
     """One search for the best labelling: `found` are those that it looked at, whatever others did before."""
 
     labellings: Labellings
-    found: dict[tuple[View, int], Labelling] = field(default_factory=dict)
+    found: dict[tuple[View, int] | bytes, Labelling] = field(default_factory=dict)
 
     @property
     def views(self) -> tuple[View, ...]:
@@ -83,11 +125,19 @@ class MotionCountSearch:
         for view in views:
             self.found[view, motions] = self.labellings.labelling(view, motions)
 
+    def subdivide(self, counts: Iterable[int]) -> None:
+        """Look at what the best labellings of these numbers of motions become with one motion more."""
+        best = self.best()
+        for count in counts:
+            if count in best:
+                for labelling in self.labellings.subdivisions(best[count]):
+                    self.found.setdefault(labelling.labels.tobytes(), labelling)
+
     def best(self) -> dict[int, Labelling]:
         """For every number of motions that was found the labelling of the least normalised cut, the first of equals."""
         best: dict[int, Labelling] = {}
         for labelling in self.found.values():
-            if labelling.motions not in best or labelling.cut < best[labelling.motions].cut - EQUAL:
+            if labelling.motions not in best or labelling.rank < best[labelling.motions].rank - EQUAL:
                 best[labelling.motions] = labelling
         return dict(sorted(best.items()))
 
@@ -98,11 +148,15 @@ class MotionCountSearch:
                 self.ask((view,), motions + more)
                 if self.found[view, motions + more].motions >= motions:
                     break
+        fewer = range(max(motions - LESS, 1), motions)
+        for count in fewer:
+            self.ask(self.views[:2], count)
+            self.subdivide((count,))
         best = self.best()
         return self._agreed(max((count for count in best if count <= motions), default=min(best)))
 
     def choose(self) -> Labelling:
-        """The labelling of the number of motions that is worth most: the least normalised cut − `WORTH` · motions.
+        """The labelling of the number of motions up to which each is worth what it adds to the normalised cut.
 
         One view tells about how many there are, and all of them which.
         """
@@ -116,6 +170,7 @@ class MotionCountSearch:
             tried = now
             for motions in range(max(now - AROUND, 1), now + BEYOND + 1):
                 self.ask(self.views, motions)
+            self.subdivide((now,))
         return self._agreed(_worthiest(self.best()).motions)
 
     def _agreed(self, motions: int) -> Labelling:
@@ -123,15 +178,17 @@ class MotionCountSearch:
 
         Where one view moves a cut or splits a motion, the others seldom do it in the same way.
         """
-        least = self.best()[motions].cut
-        near = [found for found in self.found.values() if found.motions == motions and found.cut <= least + NEAR]
+        least = self.best()[motions]
+        alike = (f for f in self.found.values() if (f.motions, f.subdivided) == (motions, least.subdivided))
+        near = [found for found in alike if found.cut <= least.cut + NEAR]
         near = sorted(near, key=lambda found: found.cut)[:MOST_VOTES]
         agreement = [sum(adjusted_rand_index(one.labels, other.labels) for other in near) for one in near]
         return near[int(np.argmax(np.array(agreement) >= max(agreement) - EQUAL))]
 
     def scores(self) -> tuple[tuple[int, float], ...]:
         """What each number of motions tried leaves unexplained in the first view, as a share of what one does."""
-        costs = [labelling.cost for (view, _), labelling in self.found.items() if view == self.views[0]]
+        lead = (one for one in self.found.values() if one.view == self.views[0] and not one.subdivided)
+        costs = [labelling.cost for labelling in lead]
         return tuple((i + 1, min(cost / (costs[0] or 1.0), 1.0)) for i, cost in enumerate(costs))
 
 
@@ -139,4 +196,20 @@ EQUAL = 1e-9
 
 
 def _worthiest(best: dict[int, Labelling]) -> Labelling:
-    return min(best.values(), key=lambda labelling: labelling.cut - WORTH * labelling.motions)
+    """From one motion on, the next number at which the motions that came in are worth what they add; the last such."""
+    now = best[min(best)]
+    while True:
+        worth = _worth(now)
+        better = (more for more in best.values() if more.rank - now.rank < worth * (more.motions - now.motions))
+        following = next((more for more in better if more.motions > now.motions), None)
+        if following is None:
+            return now
+        now = following
+
+
+def _worth(found: Labelling) -> float:
+    """What one motion more may add, by what those that are found added on average."""
+    if found.motions == 1:
+        return WORTH
+    average = found.cut / (found.motions - 1)
+    return max(min(WORTH, max(USUAL * average, LEAST_WORTH)), min(DEAR * average, MOST_WORTH))

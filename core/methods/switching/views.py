@@ -134,14 +134,20 @@ class Views:
         """The take in one view."""
         return self._viewed[view]
 
-    def _has(self, view: View) -> bool:
-        if not self.frames.values:
-            return False
+    def within(self, view: View, steps: Int[np.ndarray, "steps"]) -> TakeInView | None:
+        """Some steps of the take, as if there were no others: what is small beside the rest is seen. None if all are
+        alike."""
+        signal = self._signal(view, steps)
+        return None if signal is None else TakeInView(signal)
+
+    def _signal(self, view: View, steps: Int[np.ndarray, "steps"] | slice = slice(None)) -> WindowedSignal | None:
         key = view.seconds, view.evenness
         if key not in self._windows:
             self._windows[key] = DescriptorWindows.of(self.frames.values, self.frames.frame_rate, *key)
-        weights = view.weights if len(self.frames.values) == 2 else ()
-        signal = self._windows[key].signal(weights)
+        return self._windows[key].signal(view.weights if len(self.frames.values) == 2 else (), steps)
+
+    def _has(self, view: View) -> bool:
+        signal = self._signal(view) if self.frames.values else None
         if signal is not None:
             self._viewed[view] = TakeInView(signal)
         return signal is not None

@@ -75,8 +75,10 @@ class DescriptorWindows:
         )
         return cls(statistics, frames, frame_rate, stride, seconds)
 
-    def signal(self, weights: tuple[float, ...] = ()) -> WindowedSignal | None:
-        """The signal to cut; None where nothing changes.
+    def signal(
+        self, weights: tuple[float, ...] = (), steps: Int[np.ndarray, "steps"] | slice = slice(None)
+    ) -> WindowedSignal | None:
+        """The signal to cut, of all steps or of some; None where nothing changes.
 
         The three statistics of a descriptor count alike, whatever their units, and so do the descriptors but for
         their `weights`.
@@ -84,7 +86,7 @@ class DescriptorWindows:
         values = []
         for statistics, weight in zip(self.statistics, weights or (1.0,) * len(self.statistics), strict=True):
             for statistic in statistics:
-                centred = statistic - statistic.mean(axis=0)
+                centred = statistic[steps] - statistic[steps].mean(axis=0)
                 spread = _root_mean_square(centred)
                 if spread * weight > 0:
                     values.append(centred * (weight / spread))
