@@ -9,7 +9,9 @@ from caesura.core.plot.picture import TEXT, Box, Dot, Label, Line, Picture, Poin
 from caesura.core.segmentation_document import Segment, SegmentationDocument, motion_name
 
 LEFT, TOP, WIDTH, CURVE, GAP, BAR, BELOW, RIGHT = 64, 14, 880, 200, 8, 28, 44, 16
-INK, FAINT, DISCARDED, KEY = "#222222", "#9a9a9a", "#dddddd", "#c1121f"
+INK, FAINT, DISCARDED, KEY, CALM = "#222222", "#9a9a9a", "#dddddd", "#c1121f", "#2f6fb0"
+VARIANCE = 0.3
+"""Share of the plot's height that a curve of variances fills."""
 COLOURS = (
     "#4a85ee", "#e36927", "#176c5f", "#fadb86", "#a860af", "#b1c426",
     "#9deef9", "#b23308", "#8a9784", "#f0acad", "#6a40b0", "#8fb8fe",
@@ -28,7 +30,7 @@ def lay_out_picture(document: SegmentationDocument) -> Picture:
         LEFT + WIDTH + RIGHT,
         TOP + CURVE + GAP + BAR + BELOW,
         f"Energy curve: {found}",
-        (*_energy(document), *_segments(document), *_clock(document)),
+        (*_energy(document), *_variances(document), *_segments(document), *_clock(document)),
     )
 
 
@@ -45,7 +47,7 @@ def _energy(document: SegmentationDocument) -> Iterator[Box | Line | Dot | Label
         y = place(0, tick)[1]
         yield Line(((LEFT - 4, y), (LEFT, y)), INK)
         yield Label((LEFT - 8, y + TEXT / 3), f"{tick:g}", INK, "end")
-    yield Label((16, TOP + CURVE / 2), "energy (nats)", INK, upright=True)
+    yield Label((16, TOP + CURVE / 2), curve_name(document), INK, upright=True)
     for segment in document.segments[1:]:
         x = _x(document, segment.start)
         yield Line(((x, TOP), (x, TOP + CURVE + GAP)), FAINT, dashed=True)
@@ -54,6 +56,22 @@ def _energy(document: SegmentationDocument) -> Iterator[Box | Line | Dot | Label
     for key in document.key_frames:
         yield Dot(place(key.frame, key.energy), 3.5, KEY)
     yield Line(((LEFT, TOP), (LEFT, TOP + CURVE), (LEFT + WIDTH, TOP + CURVE)), INK)
+
+
+def curve_name(document: SegmentationDocument) -> str:
+    """What the curve is, and its unit."""
+    return "distance of frames" if document.parameters.get("energy") == "distance" else "energy (nats)"
+
+
+def _variances(document: SegmentationDocument) -> Iterator[Line]:
+    """Each curve of Eq. 5 in the lowest part of the plot, by itself from its least to its largest value."""
+    for curve in document.variances:
+        low, high = min(curve.values), max(curve.values)
+        points = [
+            (_x(document, curve.start + i), TOP + CURVE * (1 - VARIANCE * (value - low) / ((high - low) or 1.0)))
+            for i, value in enumerate(curve.values)
+        ]
+        yield Line(tuple(points), CALM, 1.2)
 
 
 def _curve_runs(document: SegmentationDocument) -> Iterator[list[tuple[int, float]]]:
