@@ -7,7 +7,9 @@ from caesura.core.agreement import (
     adjusted_rand_index,
     boundary_scores,
     cut_frames,
+    error_measure,
     frame_accuracy,
+    rand_index,
     segment_f1,
 )
 
@@ -34,8 +36,19 @@ def test_the_best_matching_is_not_the_greedy_one():
     assert frame_accuracy(labels("aaaaabb"), labels("xxxyyxx")) == 4 / 7
 
 
+def test_the_error_measure_counts_the_pairs_that_differ():
+    """Pair by pair (Eq. 6 read with the truth); the Rand index, which figure 7 shows, is what it leaves."""
+    draw = np.random.default_rng(0)
+    found, true = draw.integers(0, 3, 30), draw.integers(0, 4, 30)
+    differ = sum((found[i] == found[j]) != (true[i] == true[j]) for i in range(30) for j in range(30) if i != j)
+    assert error_measure(found, true) == pytest.approx(differ / (30 * 29))
+    assert error_measure(found, true) == 1 - rand_index(found, true)
+
+
 def test_rand_index_counts_pairs():
     """aab against xyy: of three pairs only the outer one is judged alike, and by chance more would be."""
+    assert rand_index(labels("aab"), labels("xyy")) == pytest.approx(1 / 3)
+    assert rand_index(labels("ab"), labels("xy"), np.array([2, 1])) == rand_index(labels("a"), labels("x")) == 1
     assert adjusted_rand_index(labels("aab"), labels("xyy")) == pytest.approx(-0.5)
 
 

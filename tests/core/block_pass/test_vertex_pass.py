@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from caesura.core.animation import Animation, Take
-from caesura.core.block_pass.measured_body import MeasuredBody
+from caesura.core.block_pass.descriptor_set import DescriptorSet
 from caesura.core.block_pass.range_estimate import FRAMES
 from caesura.core.errors import InvalidModel
 from caesura.core.frames.sampled_frames import choose_sample_frames
@@ -74,7 +74,7 @@ def test_points_without_a_mesh_have_the_energy_of_their_pairs() -> None:
     moved = np.asarray(rest + steps, np.float32)
     take = Take(0, "", 100 / 30, 100, 30.0)
     points = Animation(lambda a, b: moved[a:b], 24, np.zeros((0, 3), np.int64), rest, 100, 30.0, take)
-    body, _ = MeasuredBody.of(points, rest, Parameters())
+    body, _ = DescriptorSet.of(points, rest, Parameters())
     [(_, strains)] = body.surface.tiles(moved)
     found = analyse(points, Parameters(window_seconds=0.1, rest="bind"))
     expected = oracles.energy(oracles.bins(strains.T, found.strain_scale, 10), 10, 3)

@@ -51,13 +51,12 @@ def test_bending_that_stretches_nothing_changes_nothing(angle):
 
 
 def test_rigid_motion_changes_nothing_and_size_its_logarithm():
-    """Unless size is taken out."""
+    """Whatever the angle."""
     rest, triangles = bar()
     moved = np.stack([turned(rest.astype(np.float64), a) + 3 for a in np.linspace(0, 6, 12)])
     surface = Geodesic.of(mesh(rest, triangles))
     assert (values(surface, moved) <= surface.noise(float(np.abs(moved).max()))).all()
     np.testing.assert_allclose(values(surface, 2 * moved), np.log(2), atol=1e-4)
-    assert values(Geodesic.of(mesh(rest, triangles, scale_invariant=True)), 2 * moved).max() < 1e-4
 
 
 def test_each_piece_has_its_own_average():

@@ -45,12 +45,11 @@ def test_bending_that_stretches_nothing_changes_nothing(angle):
 
 
 def test_rigid_motion_changes_nothing():
-    """Nor does size, where it is taken out."""
+    """Turned and moved."""
     rest, triangles = bar()
     moved = np.stack([turned(rest.astype(np.float64), a) + 3 for a in np.linspace(0, 6, 12)])
     surface = HeatKernel.of(mesh(rest, triangles))
     assert (values(surface, moved) <= surface.noise(float(np.abs(moved).max()))).all()
-    assert values(HeatKernel.of(mesh(rest, triangles, scale_invariant=True)), 2 * moved).max() < 1e-4
 
 
 def test_each_piece_keeps_its_heat():

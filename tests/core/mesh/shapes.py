@@ -30,10 +30,10 @@ def in_pieces(triangles, *places):
     return np.arange(triangles.size).reshape(-1, 3), *(np.asarray(p)[..., triangles.ravel(), :] for p in places)
 
 
-def mesh(place, triangles, **options):
+def mesh(place, triangles):
     """A mesh whose vertices are all points of their own."""
     place = np.asarray(place, np.float32)
-    return Mesh.of(place, triangles, np.arange(len(place)), **options)
+    return Mesh.of(place, triangles, np.arange(len(place)))
 
 
 def values(surface, vertices):

@@ -1,5 +1,7 @@
 """Sheets: clips laid end to end are recognised and cut at their ends; performances are not taken for sheets."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -34,6 +36,30 @@ def test_a_sheet_is_cut_at_its_clips(motions):
     assert frame_accuracy(found.labels, truth) > 0.97
     assert found.motions == 5
     assert ((found.confidence >= 0) & (found.confidence <= 1)).all()
+
+
+@pytest.mark.parametrize("frames", [20, 50])
+def test_the_way_from_one_clip_to_the_next_is_no_clip(frames):
+    """Where a spline leads from the last key of a clip to the first of the next, however long; cut in its middle."""
+    sheet, _ = clips()
+    shown = np.split(sheet.vertices(0, sheet.frames), np.cumsum(LENGTHS)[:-1])
+    t = (np.arange(1, frames + 1) / (frames + 1))[:, None, None]
+    ways = [one[-1] + (other[0] - one[-1]) * t**2 * (3 - 2 * t) for one, other in pairwise(shown)]
+    pieces = [piece for pair in zip(shown, [*ways, []], strict=True) for piece in pair if len(piece)]
+    joined = animation(np.concatenate(pieces), sheet.triangles, rest=sheet.rest)
+    found = segment(joined, Parameters())
+    middles = np.cumsum(LENGTHS)[:-1] + frames * (np.arange(4) + 0.5)
+    np.testing.assert_allclose(found.cuts, middles, atol=2)
+    np.testing.assert_allclose(np.diff(found.transitions)[:, 0], frames, atol=3)
+
+
+def test_a_clip_that_passes_its_first_pose_may_be_two():
+    """The middle of a long swing is a candidate for a cut, less likely than not; short swings have none."""
+    sheet, _ = clips((120, 20, 60))
+    ((frame, likely),) = segment(sheet, Parameters()).candidates
+    assert abs(frame - 60) <= 2
+    assert 0.1 <= likely < 0.5
+    assert segment(clips()[0], Parameters()).candidates == ()
 
 
 def test_what_a_person_expects_goes_first():

@@ -3,7 +3,7 @@
 import numpy as np
 
 from caesura.core.methods.alignment.frame_kernel import frame_kernel
-from caesura.core.methods.alignment.sample_rate import frames_per_sample, seconds_to_samples
+from caesura.core.methods.alignment.sample_rate import most_frames_per_sample, seconds_to_samples
 from caesura.core.methods.alignment.temporal_reduction import reduce_frames
 
 
@@ -30,6 +30,6 @@ def test_blocks_end_where_looks_change_and_when_they_are_full():
 
 def test_a_slow_take_is_not_reduced():
     """At 24 and 30 frames a second every frame counts; at 120, five are one as the authors have it."""
-    assert [frames_per_sample(rate) for rate in (24.0, 30.0, 60.0, 120.0)] == [1, 1, 2, 5]
+    assert [most_frames_per_sample(rate) for rate in (24.0, 30.0, 60.0, 120.0)] == [1, 1, 2, 5]
     assert reduce_frames(np.ones((4, 1)), 1, seed=0).bounds.tolist() == [0, 1, 2, 3, 4]
     assert seconds_to_samples(1.27, 960, 4579 / 120) == 32

@@ -35,7 +35,7 @@ def test_partition_is_the_cheapest_of_all(penalty, longest):
     total = np.concatenate([np.zeros((1, 2)), np.cumsum(values, axis=0)])
     squares = np.concatenate([[0.0], np.cumsum((values**2).sum(axis=1))])
     start_of = np.zeros(11, np.int64)
-    switching.greedy_partition(total, squares, penalty, longest, start_of)
+    switching.least_cost_partition(total, squares, penalty, longest, start_of)
     bounds = [10]
     while bounds[-1] > 0:
         bounds.append(int(start_of[bounds[-1]]))
