@@ -9,6 +9,7 @@ from caesura.core.errors import InvalidModel
 from caesura.core.limits import Limits
 from caesura.formats.bvh.hierarchy import BvhHeader, BvhJoint, malformed_bvh, read_bvh_header
 from caesura.formats.decode_budget import DecodeBudget
+from caesura.formats.gltf.converted_gltf import GltfConversion
 from caesura.formats.gltf.writer import Channel, GlbWriter
 
 AXES = {"X": 0, "Y": 1, "Z": 2}
@@ -17,24 +18,25 @@ AT_ONCE = 2**18
 """Rotations that are computed together."""
 
 
-def convert_bvh_to_glb(data: memoryview, limits: Limits) -> bytes:
-    """The GLB: a node for every joint, and the rotations and places of those that have channels.
+def convert_bvh_to_glb(data: memoryview, limits: Limits) -> GltfConversion:
+    """As glTF: a node for every joint, and the rotations and places of those that have channels.
 
     Raises `BrokenContainer("malformed-bvh")`, `InvalidModel` or `LimitExceeded`.
     """
     head = read_bvh_header(bytes(data[: 2**23]), limits)
     limits.check("max_frames", head.frames, "Cut the take")
     DecodeBudget(limits).check(4 * len(data) + head.frames * 4 * len(head.joints) * 8)
-    values = _read_motion_values(data, head)
+    values = read_motion_values(data, head)
     writer = GlbWriter()
     for joint in head.joints:
         writer.node(joint.name, parent=None if joint.parent < 0 else joint.parent, translation=joint.offset)
     times = (np.arange(head.frames) / head.rate).astype(np.float32)
     writer.animation("motion", _has_position(head, values, times))
-    return writer.to_bytes()
+    return GltfConversion(writer.to_bytes())
 
 
-def _read_motion_values(data: memoryview, head: BvhHeader) -> Float[np.ndarray, "frames columns"]:
+def read_motion_values(data: memoryview, head: BvhHeader) -> Float[np.ndarray, "frames columns"]:
+    """The numbers of all frames."""
     count = head.frames * head.columns
     if count == 0:
         raise InvalidModel("no-motion", "The BVH has no frames, or none of its joints moves.")

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from caesura.core.errors import BrokenContainer
 from caesura.core.limits import Limits
-from caesura.formats.frame_rate import snap_frame_rate
+from caesura.formats.takes.frame_rate import snap_frame_rate
 
 MOTION = b"MOTION"
 ROUNDED = 1e-3
@@ -127,10 +127,13 @@ def _name_before_brace(words: Iterator[str]) -> str:
 
 
 def _channels(words: Iterator[str]) -> list[str]:
+    """The channels of a joint. Blender writes 0 of them for the root that it puts above several roots."""
     count = next(words, "")
-    found = [next(words, "") for _ in range(int(count) if count.isdecimal() and len(count) == 1 else 0)]
-    if not found or not set(found) <= CHANNELS or len(set(found)) < len(found):
-        raise malformed_bvh(f"has channels {' '.join(found)[:80] or 'without names'}")
+    if not (count.isascii() and count.isdecimal() and len(count) == 1):
+        raise malformed_bvh(f"has {count[:40]!r} where a number of channels belongs")
+    found = [next(words, "") for _ in range(int(count))]
+    if not set(found) <= CHANNELS or len(set(found)) < len(found):
+        raise malformed_bvh(f"has channels {' '.join(found)[:80]}")
     return found
 
 

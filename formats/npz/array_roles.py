@@ -6,7 +6,8 @@ from caesura.core.errors import InvalidModel
 from caesura.core.limits import Limits
 from caesura.formats.notices import Notices
 from caesura.formats.npy_header import NpyHeader
-from caesura.formats.zip.archive import Archive
+from caesura.formats.smpl.pose_members import find_pose_members
+from caesura.formats.zip.archive import ZipArchive
 
 SPELLINGS = {
     "vertices": ("vertices", "verts"),
@@ -18,16 +19,22 @@ BODY_MODEL = {"poses", "betas", "trans", "body_pose", "global_orient"}
 ONE_FRAME = re.compile(r"(frame|vertices|verts)_?\d+")
 
 
-def find_members_by_use(archive: Archive, notices: Notices) -> dict[str, str]:
+def find_body_poses(archive: ZipArchive) -> dict[str, str]:
+    """Which member is which array of a body model's poses; empty where there are none, or vertices too."""
+    members = _arrays(archive)
+    return {} if set(SPELLINGS["vertices"]) & set(members) else find_pose_members(members)
+
+
+def find_members_by_use(archive: ZipArchive, notices: Notices) -> dict[str, str]:
     """Which member is which array; raises where vertices or triangles are missing, saying what the file is instead."""
-    members = [name for name, info in archive.members.items() if info.filename.endswith(".npy")]
+    members = _arrays(archive)
     found = {what: name for what, spellings in SPELLINGS.items() for name in spellings[::-1] if name in members}
     missing = [what for what in ("vertices", "triangles") if what not in found]
     if missing and BODY_MODEL & set(members):
         raise InvalidModel(
             "body-model-parameters",
-            "The file holds parameters of a body model (poses, betas), not a surface. Run the model on them and save "
-            "its vertices (F, V, 3) and faces (T, 3) with numpy.savez.",
+            "The file holds parameters of a body model and neither `poses` nor a surface. Save the poses of all joints "
+            "as `poses`, or run the model and save its vertices (F, V, 3) and faces (T, 3), with numpy.savez.",
         )
     if "vertices" in missing and any(ONE_FRAME.fullmatch(name) for name in members):
         raise InvalidModel(
@@ -44,6 +51,10 @@ def find_members_by_use(archive: Archive, notices: Notices) -> dict[str, str]:
     if extra:
         notices.add("members-ignored", f"Not used: {', '.join(name[:40] for name in extra)}.")
     return found
+
+
+def _arrays(archive: ZipArchive) -> list[str]:
+    return [name for name, info in archive.members.items() if info.filename.endswith(".npy")]
 
 
 def check_shapes(headers: dict[str, NpyHeader], names: dict[str, str], limits: Limits) -> None:

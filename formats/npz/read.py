@@ -1,7 +1,8 @@
-"""Vertex sequences: an NPZ of `vertices` (F, V, 3) and `triangles` (T, 3)."""
+"""An NPZ, read: `vertices` (F, V, 3) and `triangles` (T, 3), or the poses of a body model."""
 
 import zlib
 from collections.abc import Callable
+from dataclasses import replace
 from typing import BinaryIO, cast
 
 import numpy as np
@@ -11,13 +12,17 @@ from caesura.core.animation import Animation, Take
 from caesura.core.errors import InvalidModel
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
-from caesura.formats.frame_rate import ASSUMED
+from caesura.formats.decode_budget import DecodeBudget
+from caesura.formats.gltf.read import read_gltf
 from caesura.formats.notices import Notices
 from caesura.formats.npy_header import NpyHeader
-from caesura.formats.npz.npz_members import check_shapes, find_members_by_use
-from caesura.formats.time_range import check_frame_count, parse_time_range
+from caesura.formats.npz.array_roles import check_shapes, find_body_poses, find_members_by_use
+from caesura.formats.smpl.gltf_conversion import convert_poses_to_glb
+from caesura.formats.smpl.pose_members import check_pose_shapes
+from caesura.formats.takes.frame_rate import ASSUMED
+from caesura.formats.takes.time_range import check_frame_count, parse_time_range
 from caesura.formats.vertex_sequence import VertexSequence, require_finite
-from caesura.formats.zip.archive import Archive, malformed_zip
+from caesura.formats.zip.archive import ZipArchive, malformed_zip
 from caesura.formats.zip.buffer_file import BufferFile
 
 PIECE = 2**24
@@ -31,7 +36,9 @@ def read_npz(
     Raises `BrokenContainer`, `LimitExceeded`, or `InvalidModel`: `wrong-shape`, `unsupported-dtype`,
     `index-out-of-range`, `no-motion`, `varying-topology`, `non-finite-data`.
     """
-    archive = Archive(cast("BinaryIO", BufferFile(data)), limits)
+    archive = ZipArchive(cast("BinaryIO", BufferFile(data)), limits)
+    if poses := find_body_poses(archive):
+        return _read_poses(archive, poses, data, parameters, limits, scratch)
     notices = Notices()
     names = find_members_by_use(archive, notices)
     headers = {what: archive.header(name) for what, name in names.items()}
@@ -46,6 +53,31 @@ def read_npz(
     if rest is not None and not require_finite(rest):
         raise InvalidModel("non-finite-data", "The rest shape holds numbers that are not finite.", pointer="/rest")
     return vertex_sequence_from_arrays(array("vertices"), triangles, rest, stored_rate, parameters, limits, notices)
+
+
+def _read_poses(
+    archive: ZipArchive,
+    names: dict[str, str],
+    data: memoryview,
+    parameters: Parameters,
+    limits: Limits,
+    scratch: Callable[[int], memoryview],
+) -> Animation:
+    """The animation of a body model's skeleton, without its body."""
+    headers = {what: archive.header(name) for what, name in names.items()}
+    joints = check_pose_shapes(headers, limits)
+    arrays = {what: _read_array(archive, names[what], headers[what], data, scratch) for what in names}
+    frames = headers["poses"].shape[0]
+    DecodeBudget(limits).check(frames * joints * 64)
+    notices = Notices()
+    stored_rate = _frame_rate(arrays["frame_rate"]) if "frame_rate" in names else None
+    rate, _ = _rates(parameters, stored_rate, notices)
+    limits.check("max_seconds", (frames - 1) / rate, "Cut the take", "/poses")
+    poses = arrays["poses"].reshape(frames, joints, 3).astype(np.float64)
+    places = arrays["trans"].astype(np.float64) if "trans" in names else np.zeros((frames, 3))
+    converted = convert_poses_to_glb(poses, places, rate, notices)
+    animation = read_gltf(memoryview(converted.glb), {}, parameters, limits)
+    return replace(animation, notices=(*converted.notices, *animation.notices))
 
 
 def vertex_sequence_from_arrays(
@@ -81,7 +113,7 @@ def _close_to_integer(frame: float) -> float:
 
 
 def _read_array(
-    archive: Archive, name: str, header: NpyHeader, data: memoryview, scratch: Callable[[int], memoryview]
+    archive: ZipArchive, name: str, header: NpyHeader, data: memoryview, scratch: Callable[[int], memoryview]
 ) -> Shaped[np.ndarray, "..."]:
     if archive.is_stored(name):
         start, stop = archive.place(name)
@@ -103,7 +135,7 @@ def verify_checksum(piece: memoryview, expected: int, name: str) -> None:
         raise malformed_zip(f"has a wrong checksum for {name!r}: it is damaged")
 
 
-def inflate_member(archive: Archive, name: str, room: memoryview) -> memoryview:
+def inflate_member(archive: ZipArchive, name: str, room: memoryview) -> memoryview:
     """One member, inflated into room of exactly the size that it states."""
     with archive.inflate(name) as file:
         filled = 0
