@@ -4,7 +4,7 @@ from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from caesura.formats.clips.buffer_references import Range, accessor_ranges, views_of_others, whole_view
+from caesura.formats.clips.buffer_references import Range, accessor_ranges, views_beside_accessors, whole_view
 from caesura.formats.clips.self_contained_gltf import SelfContainedGltf, byte_ranges_of_view
 from caesura.formats.gltf.gltf_document import COMPRESSED
 
@@ -72,7 +72,7 @@ def drop_unused_bytes(file: SelfContainedGltf, opened: set[int]) -> BinaryChunk:
     root = file.json
     views: list[dict[str, Any]] = root.get("bufferViews", [])
     named = [(part, size) for accessor in root.get("accessors", []) for part, size in accessor_ranges(accessor)]
-    others = views_of_others(root)
+    others = views_beside_accessors(root)
     apart = {
         n for n in opened - others if not {"extensions", "byteStride"} & views[n].keys() and not views[n]["buffer"]
     }

@@ -29,7 +29,7 @@ def exclusive_accessors(json: dict[str, Any], removed: list[dict[str, Any]]) -> 
     return sorted(set(_accessors_of(removed)) - used)
 
 
-def views_of_others(json: dict[str, Any]) -> set[int]:
+def views_beside_accessors(json: dict[str, Any]) -> set[int]:
     """Views with images, matrices or geometry in Draco's form, or that an extension may name."""
     images = {image["bufferView"] for image in json.get("images", []) if "bufferView" in image}
     matrices = {a.get("bufferView", -1) for a in json.get("accessors", []) if a["type"].startswith("MAT")}

@@ -14,11 +14,15 @@ ON_KEY_SECONDS = 4e-6
 
 @dataclass(frozen=True)
 class ChannelPart:
-    """Keys of a clip. Where `window` is not None they are keys [first, first + count) of the source, untouched."""
+    """Keys of a clip. Where `window` is not None they are keys [first, first + count) of the source, untouched.
+
+    `linear`: they are to be mixed, whatever those of the source are.
+    """
 
     times: Float[np.ndarray, "keys"]
     values: Shaped[np.ndarray, "keys parts width"]
     window: tuple[int, int] | None = None
+    linear: bool = False
 
     @property
     def is_still(self) -> bool:
@@ -66,7 +70,7 @@ def extend_to_clip(part: ChannelPart, start: float, end: float, origin: float) -
     return ChannelPart(seconds, np.repeat(part.values, 2, axis=0))
 
 
-def hold_single_key(keys: ChannelKeys, part: ChannelPart) -> ChannelPart:
+def value_of_single_key(keys: ChannelKeys, part: ChannelPart) -> ChannelPart:
     """The value alone of a spline's one key; a rotation's is made of unit length, as every value of a spline is."""
     values = part.values[:, 1:2]
     if keys.is_rotation and values.dtype.kind == "f":

@@ -9,7 +9,7 @@ from jaxtyping import Float, Int, Shaped
 from caesura.formats.gltf.animation.channels import INTERPOLATIONS
 from caesura.formats.gltf.geometry.accessors import AccessorLayout, Accessors
 from caesura.formats.gltf.json_object import JsonObject
-from caesura.formats.gltf.posing.nodes import unit_rotations
+from caesura.formats.gltf.posing.node_graph import unit_rotations
 
 NEAR = 0.9995
 """Cosine from which on a chord, normalised, stands for the arc: as the reader does."""

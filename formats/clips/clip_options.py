@@ -7,9 +7,12 @@ from urllib.parse import parse_qsl, urlencode
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from caesura.core.errors import ParameterError
+from caesura.formats.clips.clip_names import FIELDS, PATTERN, check_pattern
 
 LONGEST_LIST = 2000
-"""Letters of a list of motions."""
+"""Letters of a list of motions, or of segments."""
+LONGEST_PATTERN = 100
+AUTO = "auto"
 
 
 class ClipOptions(BaseModel):
@@ -27,10 +30,33 @@ class ClipOptions(BaseModel):
     loop: str = Field(
         "",
         max_length=LONGEST_LIST,
-        description="motions whose clips loop, by name, with commas between: suffix `-loop`",
+        description=(
+            "motions whose clips loop, by name, with commas between: suffix `-loop`; `auto`: of each motion that"
+            " repeats the best loop, and of segments that a revision marks"
+        ),
+    )
+    loop_blend_seconds: float = Field(
+        0.0, description="seconds at the end of a clip that loops over which it is bent to its beginning", ge=0, le=2
+    )
+    root: Literal["keep", "in_place"] = Field(
+        "keep", description="the travel of clips that loop: kept, or taken out (`in_place`)"
+    )
+    only: str = Field(
+        "",
+        max_length=LONGEST_LIST,
+        pattern=r"^(\d{1,6}(-\d{1,6})?(,\d{1,6}(-\d{1,6})?)*)?$",
+        description="the segments to make clips of, by number from 1, such as `1,4-6`; all where it is empty",
+    )
+    names: str = Field(
+        PATTERN,
+        max_length=LONGEST_PATTERN,
+        description=f"how clips are called, with {', '.join(f'`{{{name}}}`' for name in FIELDS)} in it",
     )
     discard: str = Field("", max_length=LONGEST_LIST, description="motions to leave out, by name, with commas between")
     keep_discarded: bool = Field(False, description="clips of segments too that a revision discards")
+    form: Literal["source", "glb"] = Field(
+        "source", description="clips of the kind of file that was sent, where Caesura writes it, or a GLB (`glb`)"
+    )
     files: Literal["one", "separate"] = Field("one", description="one file with all clips, or a zip of one file each")
     animation_only: bool = Field(False, description="nodes and clips alone, without meshes and materials")
 
@@ -43,20 +69,35 @@ class ClipOptions(BaseModel):
     def of(cls, given: Mapping[str, Any]) -> Self:
         """The choices given; raises `ParameterError` naming the first that is not possible."""
         try:
-            return cls.model_validate(given)
+            options = cls.model_validate(given)
         except ValidationError as refused:
             first = refused.errors()[0]
             name = str(first["loc"][0])
             raise ParameterError("invalid-parameter", f"{name}: {first['msg']}.", parameter=name) from None
+        check_pattern(options.names)
+        return options
 
     def canonical(self) -> str:
         """The same text for the same choices, as a query string; empty for the defaults."""
         chosen = self.model_dump(exclude_defaults=True)
         return urlencode({name: str(chosen[name]).lower() if chosen[name] is True else chosen[name] for name in chosen})
 
+    @property
+    def finds_loops(self) -> bool:
+        """Whether segments are cut to their best loops."""
+        return self.loop == AUTO
+
     def loop_names(self) -> set[str]:
         """The names in `loop`."""
-        return _split_names(self.loop)
+        return set() if self.finds_loops else _split_names(self.loop)
+
+    def chooses(self, number: int) -> bool:
+        """Whether a segment of this number, from 1, is to be a clip."""
+        return not self.only or any(first <= number <= last for first, last in self._chosen())
+
+    def _chosen(self) -> list[tuple[int, int]]:
+        bounds = [part.partition("-") for part in self.only.split(",")]
+        return [(int(first), int(last or first)) for first, _, last in bounds]
 
     def discard_names(self) -> set[str]:
         """The names in `discard`."""

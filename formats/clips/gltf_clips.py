@@ -4,11 +4,12 @@ from collections.abc import Iterator, Sequence
 
 from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.clips.animation_replacement import AnimationReplacement
-from caesura.formats.clips.channel_cut import ChannelPart, cut_channel, extend_to_clip, hold_single_key
-from caesura.formats.clips.clip_channels import ClipTracks, TakeChannel, take_channels
+from caesura.formats.clips.channel_cut import ChannelPart, cut_channel, extend_to_clip, value_of_single_key
 from caesura.formats.clips.clip_options import ClipOptions
 from caesura.formats.clips.clip_plan import Clip, plan_clips
 from caesura.formats.clips.clip_source import drop_large_extras
+from caesura.formats.clips.loop_channel import LoopClosing, loop_channel
+from caesura.formats.clips.take_channels import ClipTracks, TakeChannel, take_channels
 from caesura.formats.clips.take_ranges import gltf_take_ranges
 
 
@@ -41,10 +42,11 @@ def _add_clip(file: AnimationReplacement, take: int, clips: list[Clip], options:
     tracks = [ClipTracks() for _ in clips]
     reaching = [False] * len(clips)
     first: TakeChannel | None = None
+    closing = LoopClosing.of(file, take, options) if any(clip.loops for clip in clips) else None
     for channel in take_channels(file, take, nodes_only=options.animation_only):
         first = first or channel
         for number, clip in enumerate(clips):
-            part = cut_channel(channel.keys, clip.start, clip.end, _clip_origin(clip, options))
+            part = _clip_part(channel, clip, _clip_origin(clip, options), closing)
             reaching[number] |= not part.is_still
             tracks[number].add(channel.target, _sampler(file, channel, part))
     for number, clip in enumerate(clips):
@@ -52,6 +54,15 @@ def _add_clip(file: AnimationReplacement, take: int, clips: list[Clip], options:
             _hold_full_length(file, tracks[number], first, clip, options)
     source = file.document.animations[take].value
     file.add(take, [t.animation(clip.name, source, clip.extras) for t, clip in zip(tracks, clips, strict=True)])
+
+
+def _clip_part(channel: TakeChannel, clip: Clip, origin: float, closing: LoopClosing | None) -> ChannelPart:
+    """The channel's keys in a clip; of one that loops as `closing` has them."""
+    if closing is not None and clip.loops and clip.end > clip.start:
+        closed = loop_channel(channel.keys, channel.target, (clip.start, clip.end), origin, closing)
+        if closed is not None:
+            return closed
+    return cut_channel(channel.keys, clip.start, clip.end, origin)
 
 
 def _hold_full_length(
@@ -73,9 +84,9 @@ def _clip_origin(clip: Clip, options: ClipOptions) -> float:
 def _sampler(file: AnimationReplacement, channel: TakeChannel, part: ChannelPart) -> dict[str, object]:
     """Its keys in the file: those of the take where they lie, else new ones."""
     output, keys = None, channel.keys
-    layout, interpolation = channel.output, keys.interpolation
-    if keys.is_spline and part.is_still:  # a spline must have two keys
-        part, interpolation = hold_single_key(keys, part), "STEP"
+    layout, interpolation = channel.output, "LINEAR" if part.linear else keys.interpolation
+    if interpolation == "CUBICSPLINE" and part.is_still:  # a spline must have two keys
+        part, interpolation = value_of_single_key(keys, part), "STEP"
     elements = keys.stored[0].size // layout.width
     if part.window is not None:
         output = file.window(layout, part.window[0] * elements, part.window[1] * elements)

@@ -10,9 +10,9 @@ from caesura.core.animation import Animation
 from caesura.core.errors import InvalidModel
 from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.clips.animation_replacement import AnimationReplacement
-from caesura.formats.clips.clip_channels import ClipTracks, take_channels
-from caesura.formats.clips.clip_names import number_repeated_names
-from caesura.formats.clips.clip_plan import TakeRange
+from caesura.formats.clips.clip_names import name_clips_of_motions
+from caesura.formats.clips.clip_plan import TakeFrames
+from caesura.formats.clips.take_channels import ClipTracks, take_channels
 from caesura.formats.clips.take_ranges import gltf_take_ranges
 from caesura.formats.gltf.writer import Channel, GlbWriter, Primitive
 
@@ -24,7 +24,7 @@ def write_gltf_key_poses(file: AnimationReplacement, document: SegmentationDocum
     _require_key_frames(document)
     take_ranges = [s for s in gltf_take_ranges(file, document) if _frames(document, s)]
     file.remove({take_range.take for take_range in take_ranges})
-    names = [NAME] if len(take_ranges) == 1 else number_repeated_names([(NAME, False)] * len(take_ranges), ())
+    names = [NAME] if len(take_ranges) == 1 else name_clips_of_motions([(NAME, False)] * len(take_ranges), ())
     for name, take_range in zip(names, take_ranges, strict=True):
         frames = _frames(document, take_range)
         exact = take_range.start + (np.array(frames) - take_range.first) / document.frame_rate
@@ -69,7 +69,7 @@ def _require_key_frames(document: SegmentationDocument) -> None:
         raise InvalidModel("no-key-frames", detail)
 
 
-def _frames(document: SegmentationDocument, take_range: TakeRange) -> list[int]:
+def _frames(document: SegmentationDocument, take_range: TakeFrames) -> list[int]:
     return [key.frame for key in document.key_frames if take_range.first <= key.frame < take_range.end]
 
 

@@ -1,21 +1,33 @@
-"""Clips of a vertex sequence: a zip of one NPZ for each, in the form that it was sent in."""
+"""Clips of an NPZ: a zip of one for each, in the form that it was sent in."""
 
 import io
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
+from typing import BinaryIO, cast
 
 import numpy as np
 from jaxtyping import Shaped
 
 from caesura.core.animation import Animation
+from caesura.core.limits import Limits
 from caesura.formats.clips.clip_plan import Clip
+from caesura.formats.clips.in_kind.clip_request import ClipRequest
+from caesura.formats.clips.in_kind.pose_clips import write_pose_clips
+from caesura.formats.npz.array_roles import find_body_poses
+from caesura.formats.npz.read import read_npz
 from caesura.formats.vertex_sequence import VertexSequence
+from caesura.formats.zip.archive import ZipArchive
+from caesura.formats.zip.buffer_file import BufferFile
 from caesura.formats.zip.stream_writer import stream_zip
 
 BLOCK_BYTES = 2**24
 
 
-def write_npz_clips(animation: Animation, clips: Sequence[Clip]) -> Iterator[bytes]:
+def write_npz_clips(request: ClipRequest) -> Iterator[bytes]:
     """The zip. Frames are those of the segments, half-open, so the clips one after the other are the take again."""
+    archive = ZipArchive(cast("BinaryIO", BufferFile(request.model.data)), Limits.none())
+    if poses := find_body_poses(archive):
+        return write_pose_clips(request, archive, poses)
+    animation, clips = read_npz(request.model.data, request.parameters, Limits.none(), request.scratch), request.clips
     return stream_zip(((f"{clip.name}.npz", _npz(animation, clip)) for clip in clips), deflated=False)
 
 

@@ -3,16 +3,16 @@
 from caesura.core.parameters import Parameters
 from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.clips.animation_replacement import AnimationReplacement
-from caesura.formats.clips.clip_plan import TakeRange
-from caesura.formats.frame_rate import count_frames
+from caesura.formats.clips.clip_plan import TakeFrames
 from caesura.formats.gltf.animation.channels import read_channels
 from caesura.formats.gltf.animation.take_choice import last_key_seconds
+from caesura.formats.takes.frame_rate import count_frames
 
 ALL = -1
 """The number of the take that is all takes."""
 
 
-def gltf_take_ranges(file: AnimationReplacement, document: SegmentationDocument) -> list[TakeRange]:
+def gltf_take_ranges(file: AnimationReplacement, document: SegmentationDocument) -> list[TakeFrames]:
     """One for each take that was drawn."""
     parameters = Parameters.model_validate(document.parameters)
     if document.source.take != ALL:
@@ -30,18 +30,18 @@ def gltf_take_ranges(file: AnimationReplacement, document: SegmentationDocument)
         start = origin + (first - film) / rate
         if first < end:
             until = duration if end == film + frames else start + (end - 1 - first) / rate
-            take_ranges.append(TakeRange(take, first, end, start, until, duration))
+            take_ranges.append(TakeFrames(take, first, end, start, until, duration))
         film += frames
     return take_ranges
 
 
-def _take_range(file: AnimationReplacement, document: SegmentationDocument, parameters: Parameters) -> TakeRange:
+def _take_range(file: AnimationReplacement, document: SegmentationDocument, parameters: Parameters) -> TakeFrames:
     take = document.source.take
     channels = read_channels(file.document, file.accessors, file.document.animations[take])
     duration, start = last_key_seconds(file.accessors, channels), document.source.start_seconds
     last = start + (document.frames - 1) / document.frame_rate
     until = max(duration, last) if parameters.end == "last" else last
-    return TakeRange(take, 0, document.frames, start, until, max(duration, last))
+    return TakeFrames(take, 0, document.frames, start, until, max(duration, last))
 
 
 def first_key_seconds(file: AnimationReplacement, take: int) -> float:

@@ -1,11 +1,12 @@
 """Files made of a result: one file an export, one table of them.
 
-table       the exports by name
+export_table  the exports by name
+game_engines  the programs that import clips
 json_document  the whole result as JSON
 csv_tables  a row for each segment, or for each frame
 webvtt      subtitles for a video
 elan        annotations for ELAN
-clip_files  the uploaded file again, with clips or with key poses
+clips_and_key_poses  the uploaded file again, with clips or with key poses
 npz_arrays  arrays for NumPy
 plot        the energy curve over the segments, as SVG and as PNG
 """

@@ -1,4 +1,5 @@
-"""A result as ELAN reads it: an EAF 3.0 document with a tier of motions, one of key-frames, one of repetitions.
+"""A result as ELAN reads it: an EAF 3.0 document with a tier of motions, one of those that a person
+discarded, one of key-frames, one of repetitions.
 
 Format: H. Sloetjes, P. Wittenburg, ELAN Annotation Format 3.0 (Max Planck Institute for Psycholinguistics).
 """
@@ -29,6 +30,7 @@ def segments_eaf(document: SegmentationDocument) -> str:
     rate, begin = document.frame_rate, document.source.start_seconds
     tiers = {
         "motions": [(s.start_seconds, s.end_seconds, s.name) for s in document.segments],
+        "discarded": [(s.start_seconds, s.end_seconds, s.name) for s in document.segments if s.discard],
         "key-frames": [(k.seconds, k.seconds + 1 / rate, f"{k.energy:.4f}") for k in document.key_frames],
         "repetitions": [
             (begin + repeat.start / rate, begin + repeat.end / rate, f"{segment.name} {number}")

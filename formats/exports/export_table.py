@@ -10,9 +10,10 @@ from importlib import import_module
 from mmap import mmap
 from typing import Any
 
+from caesura.core.limits import Limits
 from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.clips.clip_options import ClipOptions
-from caesura.formats.written_file import WrittenFile
+from caesura.formats.streamed_file import StreamedFile
 
 Parts = Mapping[str, bytes | memoryview | mmap]
 
@@ -29,6 +30,8 @@ class ExportSource:
     parts: Parts = field(default_factory=dict)
     options: ClipOptions = field(default_factory=ClipOptions)
     scratch: Callable[[int], memoryview] = lambda size: memoryview(bytearray(size))
+    limits: Limits = field(default_factory=Limits.none)
+    """Within which the upload is read again."""
 
 
 @dataclass(frozen=True)
@@ -76,11 +79,11 @@ class Export:
         """The file of a text export."""
         return str(self._load()(document))
 
-    def write(self, source: ExportSource) -> WrittenFile:
+    def write(self, source: ExportSource) -> StreamedFile:
         """The file; raises `ParameterError` or `InvalidModel` where this result has none."""
         if self.is_text:
-            return WrittenFile(self.media_type, iter([self.text(source.document).encode()]))
-        written: WrittenFile = self._load()(source)
+            return StreamedFile(self.media_type, iter([self.text(source.document).encode()]))
+        written: StreamedFile = self._load()(source)
         return written
 
     def _load(self) -> Callable[..., Any]:
@@ -93,12 +96,14 @@ _text = partial(Export, is_text=True)
 
 EXPORTS = (
     Export(
-        "clips", "Clips", "one animation for each segment", "model/gltf-binary", "clip_files:clips", of_upload=True,
-        option="clips", option_help="Write the file again with its motions as clips: a GLB, or a zip.",
+        "clips", "Clips", "one animation for each segment", "model/gltf-binary", "clips_and_key_poses:clips",
+        of_upload=True, option="clips",
+        option_help="Write the file again with its motions as clips: a GLB, or a zip of such files.",
     ),
     Export(
-        "keyframes", "Key-frames", "one animation of the key poses", "model/gltf-binary", "clip_files:key_poses",
-        of_upload=True, option="keyframes", option_help="Write the file again with its key poses alone, as a GLB.",
+        "keyframes", "Key-frames", "one animation of the key poses", "model/gltf-binary",
+        "clips_and_key_poses:key_poses", of_upload=True, option="keyframes",
+        option_help="Write the file again with its key poses alone, as a GLB.",
     ),
     _text("result.json", "JSON", "the whole result", "application/json", "json_document:document_json"),
     _text(

@@ -5,11 +5,11 @@ import json
 
 import numpy as np
 
-from caesura.formats.exports.table import ExportSource
-from caesura.formats.written_file import WrittenFile
+from caesura.formats.exports.export_table import ExportSource
+from caesura.formats.streamed_file import StreamedFile
 
 
-def result_npz(source: ExportSource) -> WrittenFile:
+def result_npz(source: ExportSource) -> StreamedFile:
     """`energy` (frames,) float32, `labels` (frames,) uint16, `key_frames` (keys,), `segments` (segments, 3) of
 
     start, end, motion; `frame_rate`; and the whole document as JSON in `document`.
@@ -25,4 +25,4 @@ def result_npz(source: ExportSource) -> WrittenFile:
         frame_rate=np.float64(document.frame_rate),
         document=np.frombuffer(json.dumps(document.model_dump(mode="json")).encode(), np.uint8),
     )
-    return WrittenFile("application/x-npz", iter([out.getvalue()]))
+    return StreamedFile("application/x-npz", iter([out.getvalue()]))

@@ -3,8 +3,8 @@
 from caesura.core.plot.layout import lay_out_picture
 from caesura.core.plot.svg import render_svg
 from caesura.core.segmentation_document import SegmentationDocument
-from caesura.formats.exports.table import ExportSource
-from caesura.formats.written_file import WrittenFile
+from caesura.formats.exports.export_table import ExportSource
+from caesura.formats.streamed_file import StreamedFile
 
 
 def plot_svg(document: SegmentationDocument) -> str:
@@ -12,8 +12,8 @@ def plot_svg(document: SegmentationDocument) -> str:
     return render_svg(lay_out_picture(document))
 
 
-def plot_png(source: ExportSource) -> WrittenFile:
+def plot_png(source: ExportSource) -> StreamedFile:
     """As PNG."""
     from caesura.core.plot.png import render_png  # noqa: PLC0415  arrays, which a web process has not
 
-    return WrittenFile("image/png", iter([render_png(lay_out_picture(source.document), source.font())]))
+    return StreamedFile("image/png", iter([render_png(lay_out_picture(source.document), source.font())]))

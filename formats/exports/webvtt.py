@@ -15,8 +15,9 @@ def _cue(segment: Segment) -> str:
 
 
 def _plain(segment: Segment) -> str:
-    """A name that cannot be taken for markup or for the next cue."""
-    return " ".join(segment.name.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").split())
+    """A name that cannot be taken for markup or for the next cue; and whether a person has discarded the segment."""
+    name = " ".join(segment.name.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").split())
+    return name + (" (discarded)" if segment.discard else "")
 
 
 def _clock(milliseconds: int) -> str:
