@@ -15,13 +15,13 @@ KNOWN_UNREADABLE = {
     b"version https://git-lfs": "a Git LFS pointer, not the file it stands for; fetch it with git lfs pull",
     b"\x89PNG": "a PNG image",
     b"\xff\xd8\xff": "a JPEG image",
-    b"Kaydara FBX": "an FBX file; convert it to GLB, for instance with Blender",
-    b"PXR-USDC": "a USD file; convert it to GLB, for instance with Blender",
     b"BLENDER": "a Blender file; export it as GLB",
-    b"Ogawa": "an Alembic file; export it as GLB",
+    b"\x89HDF": "an HDF5 file; if it is an Alembic, export it anew as Ogawa, the kind of Alembic that is written today",
     b"\x93NUMPY": "a single NumPy array; save vertices and triangles together with numpy.savez",
     b"\x1f\x8b": "a gzip file; unpack it",
     b"ply": "a PLY file, a shape and not an animation",
+    b"# AST/ASF": "a skeleton without a motion; send it with its AMC",
+    b":version": "a skeleton without a motion; send it with its AMC",
     b"%PDF": "a PDF document",
 }
 

@@ -1,28 +1,35 @@
 """Reads an animation from the files of an upload."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import replace
 from mmap import mmap
 from typing import BinaryIO, cast
 
 from caesura.core.animation import Animation, Take
-from caesura.core.errors import InvalidModel, UnsupportedMedia
+from caesura.core.errors import InputError, InvalidModel, UnsupportedMedia
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
+from caesura.core.segmentation_document import Notice
+from caesura.formats.bundle.companion_file import find_companion
 from caesura.formats.bundle.read import read_member, read_shapes
-from caesura.formats.bundle.zip_members import ZipMembers, refuse_nested_archive
-from caesura.formats.file_header import read_header
+from caesura.formats.bundle.zip_members import ZipMembers, nested_archive_error
 from caesura.formats.file_type import SIGNATURE_BYTES, detect_file_type
+from caesura.formats.gltf.converted_gltf import GltfConversion
+from caesura.formats.gltf.mesh_and_motion import pair_mesh_and_motion
 from caesura.formats.gltf.read import read_gltf
 from caesura.formats.input_formats import INPUT_FORMATS, InputFormat
-from caesura.formats.mesh_and_motion import pair_mesh_and_motion
 from caesura.formats.npz.read import read_npz
+from caesura.formats.upload_summary import read_header
 from caesura.formats.zip.buffer_file import BufferFile
 
 Scratch = Callable[[int], memoryview]
 """Gives a writable buffer of so many bytes, for what must be inflated; the caller decides where it lies."""
 
 Part = bytes | memoryview | mmap
+
+LONGEST_NAME = 200
+"""Letters at the end of a file's name that an error repeats."""
 
 
 def read_animation(parts: Mapping[str, Part], parameters: Parameters, limits: Limits, scratch: Scratch) -> Animation:
@@ -36,12 +43,7 @@ def read_animation(parts: Mapping[str, Part], parameters: Parameters, limits: Li
     if len(models) == 2:
         return _read_pair(views, models, parameters, limits)
     model = find_main_part(views)
-    data = views.pop(model)
-    known = INPUT_FORMATS[detect_file_type(bytes(data[:SIGNATURE_BYTES]))]
-    if known.reader:
-        animation: Animation = known.load(known.reader)(data, parameters, limits, scratch)
-        return animation
-    return read_gltf(_convert_to_gltf(known, data, limits), views, parameters, limits)
+    return _read_model(model, views.pop(model), views, parameters, limits, scratch)
 
 
 def read_zip(data: memoryview, parameters: Parameters, limits: Limits, scratch: Scratch) -> Animation:
@@ -54,29 +56,76 @@ def read_zip(data: memoryview, parameters: Parameters, limits: Limits, scratch: 
         return read_shapes(files, data, parameters, limits, scratch)
     views = {called: read_member(files, other, data, scratch) for called, other in files.beside(name).items()}
     model = read_member(files, name, data, scratch)
-    known = INPUT_FORMATS[detect_file_type(bytes(model[:SIGNATURE_BYTES]))]
+    if INPUT_FORMATS[detect_file_type(bytes(model[:SIGNATURE_BYTES]))].is_archive:
+        raise nested_archive_error(name)
+    return _read_model(name, model, views, parameters, limits, scratch)
+
+
+def _read_model(
+    name: str,
+    data: memoryview,
+    beside: dict[str, memoryview],
+    parameters: Parameters,
+    limits: Limits,
+    scratch: Scratch,
+) -> Animation:
+    """The animation of one file and those `beside` it, whatever its format."""
+    known = INPUT_FORMATS[detect_file_type(bytes(data[:SIGNATURE_BYTES]))]
     if known.reader:
-        raise refuse_nested_archive(name)
-    return read_gltf(_convert_to_gltf(known, model, limits), views, parameters, limits)
+        companion = _companion(known, name, beside)
+        with _errors_of(name):
+            animation: Animation = known.load(known.reader)(data, *companion, parameters, limits, scratch)
+        return animation
+    converted = _convert_to_gltf(known, name, data, beside, limits)
+    return _with_notices(read_gltf(memoryview(converted.glb), beside, parameters, limits), converted.notices)
 
 
-def _convert_to_gltf(known: InputFormat, data: memoryview, limits: Limits) -> memoryview:
-    return memoryview(known.load(known.to_gltf)(data, limits)) if known.to_gltf else data
+def _convert_to_gltf(
+    known: InputFormat, name: str, data: memoryview, beside: Mapping[str, memoryview], limits: Limits
+) -> GltfConversion:
+    if not known.to_gltf:
+        return GltfConversion(data)
+    companion = _companion(known, name, beside)
+    with _errors_of(name):
+        converted: GltfConversion = known.load(known.to_gltf)(data, *companion, limits)
+    return converted
+
+
+@contextmanager
+def _errors_of(name: str) -> Iterator[None]:
+    """Let a refusal of a file say which one it is, where it has a name."""
+    try:
+        yield
+    except InputError as wrong:
+        if name:
+            wrong.where.setdefault("file", name[-LONGEST_NAME:])
+        raise
+
+
+def _with_notices(animation: Animation, notices: tuple[Notice, ...]) -> Animation:
+    return replace(animation, notices=(*notices, *animation.notices))
+
+
+def _companion(known: InputFormat, name: str, beside: Mapping[str, memoryview]) -> tuple[memoryview, ...]:
+    return (beside[find_companion(known, name, beside)],) if known.companion else ()
 
 
 def _read_pair(views: dict[str, memoryview], models: list[str], parameters: Parameters, limits: Limits) -> Animation:
     """The animation of a mesh in one file and its motion in another; a BVH may be the latter."""
-    first, second = (_open_as_gltf(views.pop(name), limits) for name in models)
-    pair = pair_mesh_and_motion(first, second, limits)
+    opened = {name: views.pop(name) for name in models}
+    first, second = (_open_as_gltf(name, data, views, limits) for name, data in opened.items())
+    pair = pair_mesh_and_motion(memoryview(first.glb), memoryview(second.glb), limits)
     animation = read_gltf(memoryview(pair.json), {**views, **pair.parts}, parameters, limits)
-    return replace(animation, notices=(pair.notice, *animation.notices))
+    return _with_notices(animation, (pair.notice, *first.notices, *second.notices))
 
 
-def _open_as_gltf(data: memoryview, limits: Limits) -> memoryview:
+def _open_as_gltf(name: str, data: memoryview, beside: Mapping[str, memoryview], limits: Limits) -> GltfConversion:
     known = INPUT_FORMATS[detect_file_type(bytes(data[:SIGNATURE_BYTES]))]
     if known.reader:
-        raise InvalidModel("ambiguous-upload", "An archive is an animation of its own. Send it without other files.")
-    return _convert_to_gltf(known, data, limits)
+        raise InvalidModel(
+            "ambiguous-upload", f"A file of kind {known.title} is an animation of its own. Send it without another."
+        )
+    return _convert_to_gltf(known, name, data, beside, limits)
 
 
 def list_takes(parts: Mapping[str, Part], limits: Limits) -> tuple[Take, ...]:
@@ -98,7 +147,7 @@ def find_main_part(parts: Mapping[str, memoryview]) -> str:
         return models[0]
     raise InvalidModel(
         "ambiguous-upload",
-        f"{len(models)} of the {len(parts)} files sent are models. Send one .gltf or .glb with the files it names.",
+        f"{len(models)} of the {len(parts)} files sent are models. Send one with the files that belong to it.",
     )
 
 

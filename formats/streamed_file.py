@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class WrittenFile:
+class StreamedFile:
     """A file: its media type, and its content, to be read once, while the upload is still there."""
 
     media_type: str

@@ -9,18 +9,20 @@ from dataclasses import dataclass
 from typing import BinaryIO
 
 from caesura.core.limits import Limits
-from caesura.formats.bundle.zip_members import ZipMembers, errors_as_zip, refuse_nested_archive
+from caesura.formats.bundle.companion_file import find_companion
+from caesura.formats.bundle.zip_members import ZipMembers, errors_as_zip, nested_archive_error
 from caesura.formats.bvh.hierarchy import read_bvh_header
 from caesura.formats.file_type import SIGNATURE_BYTES, Format, detect_file_type
-from caesura.formats.frame_rate import ASSUMED, count_frames, snap_frame_rate
-from caesura.formats.gltf.animation.key_times import KeyTimes
+from caesura.formats.gltf.animation.glb_key_times import KeyTimeReader
 from caesura.formats.gltf.container import CHUNK, HEADER, glb_length, json_chunk_length, parse_root
 from caesura.formats.gltf.gltf_document import check_extensions
 from caesura.formats.gltf.summary import AnimationSummary, estimate_scene_size, summarise_animations
 from caesura.formats.input_formats import INPUT_FORMATS
 from caesura.formats.notices import Notices
-from caesura.formats.npz.npz_members import check_shapes, find_members_by_use
-from caesura.formats.zip.archive import Archive
+from caesura.formats.npz.array_roles import check_shapes, find_body_poses, find_members_by_use
+from caesura.formats.smpl.pose_members import check_pose_shapes
+from caesura.formats.takes.frame_rate import ASSUMED, count_frames, snap_frame_rate
+from caesura.formats.zip.archive import ZipArchive
 
 MOST_JSON = 4 * 2**20
 """Bytes of JSON that are parsed for a header; a glTF with more is answered with unknown counts."""
@@ -73,7 +75,9 @@ def gltf_header(file: BinaryIO, kind: Format, name: str, limits: Limits) -> Head
     file.seek(start)
     root = parse_root(file.read(length), limits)
     check_extensions(root)
-    found = summarise_animations(root, KeyTimes(file, start + length, root.value) if kind == "glb" else lambda _: ())
+    found = summarise_animations(
+        root, KeyTimeReader(file, start + length, root.value) if kind == "glb" else lambda _: ()
+    )
     limits.check("max_takes", len(found), pointer="/animations")
     vertices, triangles = estimate_scene_size(root)
     return Header(kind, name, tuple(_take(place, clip) for place, clip in enumerate(found)), vertices, triangles)
@@ -112,8 +116,11 @@ def zip_header(file: BinaryIO, kind: Format, name: str, limits: Limits) -> Heade
         return Header(kind, name, (HeaderTake(0, "vertices", (frames - 1) / ASSUMED, frames, ASSUMED),))
     with errors_as_zip(), files.inflate(model) as inner:
         data = inner.read(2 * MOST_JSON)
-    if INPUT_FORMATS[detect_file_type(data[:SIGNATURE_BYTES])].reader:
-        raise refuse_nested_archive(model)
+    known = INPUT_FORMATS[detect_file_type(data[:SIGNATURE_BYTES])]
+    if known.is_archive:
+        raise nested_archive_error(model)
+    if known.companion:
+        find_companion(known, model, files.beside(model))
     found = read_header(_FileHead(data, files.members[model].file_size), name, limits)
     return Header(kind, name, found.takes, found.vertices, found.triangles)
 
@@ -132,12 +139,18 @@ class _FileHead(io.BytesIO):
 
 def npz_header(file: BinaryIO, kind: Format, name: str, limits: Limits) -> Header:
     """That of an archive of arrays, by the headers of its members."""
-    archive = Archive(file, limits)
-    members = find_members_by_use(archive, Notices())
+    archive = ZipArchive(file, limits)
+    poses = find_body_poses(archive)
+    members = poses or find_members_by_use(archive, Notices())
     headers = {what: archive.header(member) for what, member in members.items()}
-    check_shapes(headers, members, limits)
-    frames, vertices, _ = headers["vertices"].shape
+    if poses:
+        vertices, triangles = check_pose_shapes(headers, limits), 0
+        frames = headers["poses"].shape[0]
+    else:
+        check_shapes(headers, members, limits)
+        frames, vertices, _ = headers["vertices"].shape
+        triangles = headers["triangles"].shape[0]
     rate = archive.number(members["frame_rate"]) if "frame_rate" in members else ASSUMED
     rate = rate if 1 / MOST_FRAMES < rate < MOST_FRAMES else ASSUMED
-    take = HeaderTake(0, "vertices", (frames - 1) / rate, frames, rate)
-    return Header(kind, name, (take,), vertices, headers["triangles"].shape[0])
+    take = HeaderTake(0, "motion" if poses else "vertices", (frames - 1) / rate, frames, rate)
+    return Header(kind, name, (take,), vertices, triangles)

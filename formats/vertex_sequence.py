@@ -42,7 +42,8 @@ class VertexSequence:
 def require_finite(values: Float[np.ndarray, "..."]) -> bool:
     """Whether all of `values` are finite; a sum of squares tells without an array of answers."""
     flat = values.reshape(-1)
-    return bool(np.isfinite(flat.dot(flat))) or bool(np.isfinite(flat).all())
+    with np.errstate(over="ignore", invalid="ignore"):
+        return bool(np.isfinite(flat.dot(flat))) or bool(np.isfinite(flat).all())
 
 
 def _as_float32(block: Shaped[np.ndarray, "block V 3"]) -> Float[np.ndarray, "block V 3"]:

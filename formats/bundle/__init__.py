@@ -1,7 +1,7 @@
-"""A zip of files that belong together: a glTF with its buffers, or one numbered OBJ or PLY for every frame.
+"""Files that belong together: a glTF with its buffers, a point cache with its mesh, one OBJ or PLY for every frame.
 
-zip_members   the members of the zip, by their use
-read          reads them into one animation
-obj, ply      the vertices and faces of one file
-polygon_mesh  polygons, and their triangles
+zip_members     the members of a zip, by their use
+companion_file  the file that must lie beside another
+read            reads numbered shapes into one animation
+polygon_mesh    the vertices and triangles of one OBJ or PLY
 """

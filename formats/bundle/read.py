@@ -42,7 +42,7 @@ def read_shapes(
     if len(names) < 2:
         raise InvalidModel("no-motion", "The zip has one shape; a motion needs two, numbered in their names.")
     notices = Notices()
-    triangles = _without_repeated(faces, notices)
+    triangles = drop_repeated_triangles(faces, notices)
     size = len(names) * first.size * 4
     limits.check("max_inflated_bytes", size, "Send fewer files")
     stored = np.frombuffer(scratch(size), np.float32).reshape(len(names), len(first), 3)
@@ -75,7 +75,7 @@ def _read_shape(files: ZipMembers, name: str, data: memoryview, limits: Limits) 
     return vertices, triangles
 
 
-def _without_repeated(triangles: Int[np.ndarray, "T 3"], notices: Notices) -> Int[np.ndarray, "U 3"]:
+def drop_repeated_triangles(triangles: Int[np.ndarray, "T 3"], notices: Notices) -> Int[np.ndarray, "U 3"]:
     """Of triangles with the same three corners, the first."""
     first = np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1]
     if repeated := len(triangles) - len(first):

@@ -9,13 +9,13 @@ from typing import BinaryIO
 from caesura.core.errors import BrokenContainer, InvalidModel, UnsupportedMedia
 from caesura.core.limits import Limits
 from caesura.formats.input_formats import MODEL_SUFFIXES
-from caesura.formats.zip.archive import Archive, check_member, malformed_zip
+from caesura.formats.zip.archive import ZipArchive, check_member, malformed_zip
 
 SHAPES = (".obj", ".ply")
 NUMBER = re.compile(r"\d+")
 
 
-class ZipMembers(Archive):
+class ZipMembers(ZipArchive):
     """The members of a zip by their exact names; nothing of it is ever written where a name says.
 
     Raises `BrokenContainer("malformed-zip")` or `LimitExceeded`, by the directory alone.
@@ -36,15 +36,18 @@ class ZipMembers(Archive):
         )
 
     def model(self) -> str | None:
-        """The one glTF, GLB or BVH; None where there are shapes instead. Raises where it is not one, or nothing."""
+        """The one file that can be read alone or with others; None where there are shapes instead.
+
+        Raises where there are several, or nothing.
+        """
         models = [name for name in self.members if name.lower().endswith(MODEL_SUFFIXES)]
         if len(models) > 1:
             raise InvalidModel("ambiguous-upload", f"{len(models)} files of the zip are models. Send one at a time.")
         if not models and not self.shapes():
             raise UnsupportedMedia(
                 "unsupported-media-type",
-                "The zip holds no animation. Read are a .gltf or .glb with its buffers, numbered .obj or .ply files, "
-                "a .bvh, and NumPy archives.",
+                f"The zip holds no animation. It may hold one {', '.join(MODEL_SUFFIXES)} with what lies beside it, "
+                "numbered .obj or .ply files, or NumPy arrays.",
             )
         return models[0] if models else None
 
@@ -87,7 +90,7 @@ def errors_as_zip() -> Iterator[None]:
         raise BrokenContainer("malformed-zip", detail) from None
 
 
-def refuse_nested_archive(name: str) -> UnsupportedMedia:
+def nested_archive_error(name: str) -> UnsupportedMedia:
     """The refusal of an archive in a zip: there may be another one in it, without end."""
     return UnsupportedMedia("unsupported-media-type", f"{name[:80]!r} in the zip is a zip again. Send that one alone.")
 

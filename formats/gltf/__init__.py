@@ -9,5 +9,7 @@ draco, meshopt              compressed geometry
 animation                   takes, channels, keys, and their values at any time
 posing                      nodes, skins, and vertices of any block of frames
 scene_mesh                  everything that the scene draws, as one mesh
+skeleton_joints             the joints of a file without a mesh
+converted_gltf              what another format becomes
 writer                      a GLB from arrays
 """

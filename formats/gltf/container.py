@@ -6,8 +6,8 @@ from typing import NamedTuple
 from caesura.core.errors import BrokenContainer, InvalidModel
 from caesura.core.limits import Limits
 from caesura.formats.gltf.json_object import JsonObject
+from caesura.formats.gltf.strict_json import parse_json_object
 from caesura.formats.notices import Notices
-from caesura.formats.strict_json import parse_json_object
 
 MAGIC = b"glTF"
 JSON_CHUNK, BINARY_CHUNK = 0x4E4F534A, 0x004E4942

@@ -9,7 +9,7 @@ from caesura.formats.decode_budget import DecodeBudget
 from caesura.formats.gltf.container import open_container
 from caesura.formats.gltf.json_object import JsonObject
 from caesura.formats.notices import Notices
-from caesura.formats.take_selection import LONGEST, take_name
+from caesura.formats.takes.take_selection import LONGEST, take_name
 
 IGNORABLE_EXTENSIONS = (
     "KHR_materials_",
@@ -19,8 +19,9 @@ IGNORABLE_EXTENSIONS = (
     "KHR_lights_",
     "EXT_lights_",
     "KHR_xmp",
+    "VRM",
 )
-"""Beginnings of the names of extensions that change no vertex: images and materials are never read."""
+"""Beginnings of the names of extensions that change no vertex by themselves; images and materials are never read."""
 
 READABLE_EXTENSIONS = {
     "EXT_mesh_gpu_instancing",

@@ -9,18 +9,20 @@ from caesura.core.animation import Animation
 from caesura.core.errors import InvalidModel
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
-from caesura.formats.frame_rate import ASSUMED, estimate_key_rate
 from caesura.formats.gltf.animation.channels import Channel
-from caesura.formats.gltf.animation.key_times import MOST_KEYS
+from caesura.formats.gltf.animation.glb_key_times import MOST_KEYS
 from caesura.formats.gltf.animation.sampled_take import SceneSize, join_all_takes, sample_one_take
 from caesura.formats.gltf.animation.sampling import KeyTracks, PoseSlots, read_tracks
 from caesura.formats.gltf.animation.take_choice import find_chosen_takes
 from caesura.formats.gltf.geometry.accessors import Accessors
 from caesura.formats.gltf.gltf_document import GltfDocument
-from caesura.formats.gltf.posing.nodes import NodeGraph, read_nodes, scene_nodes
+from caesura.formats.gltf.posing.joints_of_mesh import find_joints
+from caesura.formats.gltf.posing.node_graph import NodeGraph, read_nodes, scene_nodes
+from caesura.formats.gltf.posing.posed_vertices import PosedVertices, sample_rest_pose
 from caesura.formats.gltf.posing.skeleton import read_skeleton
-from caesura.formats.gltf.posing.vertices import PosedVertices, sample_rest_pose
 from caesura.formats.gltf.scene_mesh import SceneMesh, default_morph_weights, joints_as_scene_mesh, read_scene_mesh
+from caesura.formats.gltf.skeleton_joints import find_moving_joints
+from caesura.formats.takes.frame_rate import ASSUMED, estimate_key_rate
 
 
 def read_gltf(data: memoryview, parts: Mapping[str, memoryview], parameters: Parameters, limits: Limits) -> Animation:
@@ -57,17 +59,13 @@ def read_gltf(data: memoryview, parts: Mapping[str, memoryview], parameters: Par
         start_seconds=course.start_seconds,
         gltf={**parts, "": data} if len(chosen) == 1 and not figure.instanced else None,
         notices=document.notices.in_order(),
+        joints=find_joints(figure, graph, course.vertices),
     )
 
 
 def _joints_as_figure(document: GltfDocument, graph: NodeGraph, nodes: list[int], channels: list[Channel]) -> SceneMesh:
-    """The joints that move, where there is no mesh: nodes that are animated, and all below them."""
-    moving = {channel.node for channel in channels}
-    joints = []
-    for node in nodes:  # parents come first
-        if node in moving or graph.parent[node] in moving:
-            moving.add(node)
-            joints.append(node)
+    """The joints that move, where there is no mesh."""
+    joints = find_moving_joints(document, nodes, graph.parent.tolist(), channels)
     if not joints:
         raise InvalidModel("no-mesh", "The scene has no mesh, and none of its nodes is animated.", pointer="/nodes")
     document.limits.check("max_vertices", len(joints), pointer="/nodes")

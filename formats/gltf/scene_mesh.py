@@ -8,12 +8,12 @@ from jaxtyping import Float, Int
 from caesura.core.errors import InvalidModel
 from caesura.formats.gltf.animation.channels import morph_targets
 from caesura.formats.gltf.geometry.accessors import Accessors
-from caesura.formats.gltf.geometry.instances import MeshInstances, read_instances
+from caesura.formats.gltf.geometry.gpu_instancing import MeshInstances, read_instances
 from caesura.formats.gltf.geometry.primitives import Primitive, PrimitiveHeader, read_primitive, read_primitive_headers
 from caesura.formats.gltf.geometry.skin_weights import SkinWeights
 from caesura.formats.gltf.gltf_document import GltfDocument
 from caesura.formats.gltf.json_object import JsonObject
-from caesura.formats.gltf.posing.nodes import NodeGraph
+from caesura.formats.gltf.posing.node_graph import NodeGraph
 from caesura.formats.gltf.posing.skins import IDENTITY, Skin, read_skin
 
 BONE_BYTES = 32 * 12 * 8

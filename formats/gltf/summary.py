@@ -8,9 +8,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from caesura.formats.frame_rate import estimate_key_rate, snap_frame_rate
 from caesura.formats.gltf.json_object import FLOAT32_MAX, JsonObject
-from caesura.formats.take_selection import take_name
+from caesura.formats.takes.frame_rate import estimate_key_rate, snap_frame_rate
+from caesura.formats.takes.take_selection import take_name
 
 TRIANGLES, FAN = 4, 6
 INSTANCING = "EXT_mesh_gpu_instancing"

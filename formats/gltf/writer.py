@@ -28,8 +28,8 @@ class Primitive:
     triangles: Int[np.ndarray, "T 3"]
     normals: Float[np.ndarray, "V 3"] | None = None
     colours: Float[np.ndarray, "V 3"] | None = None  # linear red, green, blue in [0, 1]
-    joints: Int[np.ndarray, "V 4"] | None = None
-    weights: Float[np.ndarray, "V 4"] | None = None
+    joints: Int[np.ndarray, "V influences"] | None = None  # in fours
+    weights: Float[np.ndarray, "V influences"] | None = None
     targets: Sequence[Float[np.ndarray, "V 3"]] = ()
     material: int | None = None
 
@@ -114,6 +114,10 @@ class GlbWriter:
             self._parts["nodes"][parent].setdefault("children", []).append(index)
         return index
 
+    def attach_mesh(self, node: int, mesh: int, skin: int | None = None) -> None:
+        """Give a node its mesh, and the skin that moves it, where these are made after it."""
+        self._parts["nodes"][node] |= {"mesh": mesh} | ({} if skin is None else {"skin": skin})
+
     def skin(self, joints: Sequence[int], inverse_bind: Float[np.ndarray, "J 4 4"], *, name: str = "skin") -> int:
         """A skin: its joint nodes, and for each the matrix from the mesh at rest into the joint's own space."""
         matrices = self.accessor(inverse_bind.astype(np.float32))
@@ -160,8 +164,10 @@ class GlbWriter:
             attributes["COLOR_0"] = attribute(p.colours)
         if p.joints is not None and p.weights is not None:
             narrow = "uint8" if p.joints.max() < 256 else "uint16"
-            attributes["JOINTS_0"] = self.accessor(p.joints.astype(narrow), target=VERTEX_DATA)
-            attributes["WEIGHTS_0"] = self.accessor(p.weights.astype(np.float32), target=VERTEX_DATA)
+            for first in range(0, p.joints.shape[1], 4):
+                joints, weights = p.joints[:, first : first + 4], p.weights[:, first : first + 4]
+                attributes[f"JOINTS_{first // 4}"] = self.accessor(joints.astype(narrow), target=VERTEX_DATA)
+                attributes[f"WEIGHTS_{first // 4}"] = self.accessor(weights.astype(np.float32), target=VERTEX_DATA)
         narrow = "uint16" if len(p.positions) < 65_536 else "uint32"  # index 65,535 would restart a strip
         corners = self.accessor(p.triangles.reshape(-1).astype(narrow), target=TRIANGLE_DATA)
         primitive: dict[str, Any] = {"attributes": attributes, "indices": corners, "mode": 4}

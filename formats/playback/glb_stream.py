@@ -21,6 +21,8 @@ class GlbStream:
 
     def __init__(self) -> None:
         self.parts: dict[str, list[dict[str, Any]]] = {}
+        self.extensions: set[str] = set()
+        """The names of those that are used."""
         self._draws: list[tuple[int, DrawValues]] = []
         self._length = 0
 
@@ -40,12 +42,19 @@ class GlbStream:
 
     def streamed_accessor(self, dtype: str, shape: tuple[int, ...], draw: DrawValues, **more: Any) -> int:
         """An accessor whose values, of this type and shape, are drawn when they are written."""
-        size = int(np.dtype(dtype).itemsize * np.prod(shape))
-        view = self.add("bufferViews", {"buffer": 0, "byteOffset": self._length, "byteLength": size})
-        self._draws.append((size, draw))
-        self._length += -(-size // 4) * 4
+        view = self._view(int(np.dtype(dtype).itemsize * np.prod(shape)), draw)
         kind = {"componentType": COMPONENTS[dtype], "count": shape[0], "type": SHAPES[shape[1:]]}
         return self.add("accessors", {"bufferView": view, **kind, **more})
+
+    def view(self, data: memoryview) -> int:
+        """A buffer view of bytes as they are, such as an image."""
+        return self._view(len(data), lambda: np.frombuffer(data, np.uint8))
+
+    def _view(self, size: int, draw: DrawValues) -> int:
+        place = {"buffer": 0, "byteOffset": self._length, "byteLength": size}
+        self._draws.append((size, draw))
+        self._length += -(-size // 4) * 4
+        return self.add("bufferViews", place)
 
     def pieces(self, roots: list[int]) -> Iterator[bytes]:
         """The file, with `roots` as the nodes of its one scene."""
@@ -53,6 +62,7 @@ class GlbStream:
             "asset": {"version": "2.0", "generator": "Caesura"},
             "scene": 0,
             "scenes": [{"nodes": roots}],
+            **({"extensionsUsed": sorted(self.extensions)} if self.extensions else {}),
             **self.parts,
             **({"buffers": [{"byteLength": self._length}]} if self._length else {}),
         }

@@ -1,9 +1,10 @@
 """A glTF as the page plays it: decoded geometry, the take alone, and nothing else.
 
-Three.js skins it on the GPU, so a long take stays as small as its keys. Images, materials, other takes, names and
-extensions are left out; sparse, quantized, strip and fan geometry is plain triangles of floats. Every vertex
-carries `_PATCH`, the patch of the surface whose strain colours it. Only the four strongest joints of a vertex are
-kept, as many as three.js knows. Joints of a skeleton without a mesh are marked `joint` in their extras.
+Three.js skins it on the GPU, so a long take stays as small as its keys. Images, other takes, names and most
+extensions are left out, and materials are plain: their images come in a file of their own; sparse, quantized, strip
+and fan geometry is plain triangles of floats. Every vertex carries `_PATCH`, the patch of the surface whose strain
+colours it. Only the four strongest joints of a vertex are kept, as many as three.js knows. Joints of a skeleton
+without a mesh are marked `joint` in their extras.
 """
 
 from collections.abc import Iterator, Mapping
@@ -21,10 +22,12 @@ from caesura.formats.gltf.geometry.primitives import PrimitiveHeader, read_primi
 from caesura.formats.gltf.geometry.skin_weights import SkinWeights
 from caesura.formats.gltf.gltf_document import GltfDocument
 from caesura.formats.gltf.json_object import JsonObject
-from caesura.formats.gltf.posing.nodes import read_nodes, scene_nodes
+from caesura.formats.gltf.posing.node_graph import read_nodes, scene_nodes
 from caesura.formats.gltf.posing.skins import read_skin
 from caesura.formats.gltf.scene_mesh import default_morph_weights
+from caesura.formats.gltf.skeleton_joints import find_moving_joints
 from caesura.formats.playback.glb_stream import GlbStream
+from caesura.formats.playback.materials import EXTENSIONS, MOST_TEXTURE_COORDINATES, Materials
 from caesura.formats.read import find_main_part
 
 JOINTS_KEPT = 4  # of a vertex; three.js reads JOINTS_0 alone
@@ -33,14 +36,17 @@ PLACEMENT = ("translation", "rotation", "scale", "matrix")
 
 def write_playable_gltf(
     parts: Mapping[str, memoryview], take: int, patch_of_vertex: Int[np.ndarray, "V"]
-) -> Iterator[bytes]:
-    """The GLB, piece by piece. The file has been read before, so its limits are not asked again.
+) -> tuple[Iterator[bytes], Iterator[bytes] | None]:
+    """The GLB, and its materials with their images or None where there are none, each piece by piece.
+
+    The file has been read before, so its limits are not asked again.
 
     `patch_of_vertex` is in the order in which the reader takes vertices: nodes depth first, then primitives.
     """
     beside = dict(parts)
     document = GltfDocument(beside.pop("" if "" in parts else find_main_part(parts)), beside, Limits.none())
-    return _PlayableGltf(document, take, patch_of_vertex).pieces()
+    made = _PlayableGltf(document, take, patch_of_vertex)
+    return made.pieces(), made.materials.textured()
 
 
 class _PlayableGltf:
@@ -51,6 +57,7 @@ class _PlayableGltf:
         self._accessors = Accessors(document)
         self._patches = patch_of_vertex
         self._out = GlbStream()
+        self.materials = Materials(document)
         self._skins: dict[int, int] = {}
         graph = read_nodes(document)
         scene = scene_nodes(document, graph)
@@ -64,8 +71,12 @@ class _PlayableGltf:
         for node in with_mesh:
             self._mesh(node)
         if not with_mesh:
-            self._mark_joints(scene, graph.parent.tolist(), {channel.node for channel in channels})
+            for node in find_moving_joints(document, scene, graph.parent.tolist(), channels):
+                self._out.parts["nodes"][node]["extras"] = {"joint": True}
         self._animation(channels)
+        for material in self.materials.plain():
+            self._out.add("materials", material)
+        self._out.extensions |= EXTENSIONS
 
     def pieces(self) -> Iterator[bytes]:
         """The file."""
@@ -103,7 +114,7 @@ class _PlayableGltf:
             "POSITION": self._out.array(decoded.positions, bounds=True),
             "_PATCH": self._out.array(patch.astype(np.float32)),
         }
-        normals = self._normals(outline)
+        normals = self._values_of_vertices(outline, "NORMAL", ("VEC3",))  # without them the page draws facets
         if normals is not None:
             attributes["NORMAL"] = self._out.array(normals)
         if decoded.influences is not None and "skin" in entry:
@@ -114,16 +125,28 @@ class _PlayableGltf:
             "attributes": attributes,
             "indices": self._out.array(decoded.triangles.reshape(-1).astype(np.uint32)),
         }
+        material = self.materials.number(outline.entry)
+        if material is not None:
+            primitive["material"] = material
+            attributes |= self._appearance(outline)
         missing = np.zeros_like(decoded.positions)
         targets = [*decoded.targets, *[missing] * (morph_targets(self._document, entry) - len(decoded.targets))]
         if targets:
             primitive["targets"] = [{"POSITION": self._out.array(target, bounds=True)} for target in targets]
         return primitive, decoded.influences is not None
 
-    def _normals(self, outline: PrimitiveHeader) -> Float[np.ndarray, "V 3"] | None:
-        """They only serve the light: faulty ones are left out, and the page draws facets."""
-        layout = outline.attributes.get("NORMAL")
-        if layout is None or layout.type != "VEC3":
+    def _appearance(self, outline: PrimitiveHeader) -> dict[str, int]:
+        """Where images lie on the surface, and the colours of its vertices."""
+        wanted = {f"TEXCOORD_{n}": ("VEC2",) for n in range(MOST_TEXTURE_COORDINATES)} | {"COLOR_0": ("VEC3", "VEC4")}
+        found = {name: self._values_of_vertices(outline, name, types) for name, types in wanted.items()}
+        return {name: self._out.array(values) for name, values in found.items() if values is not None}
+
+    def _values_of_vertices(
+        self, outline: PrimitiveHeader, name: str, types: tuple[str, ...]
+    ) -> Float[np.ndarray, "V components"] | None:
+        """They only serve the look: faulty ones are left out."""
+        layout = outline.attributes.get(name)
+        if layout is None or layout.type not in types:
             return None
         try:
             return self._accessors.floats(layout, vertex_data=True)
@@ -140,13 +163,6 @@ class _PlayableGltf:
             joints = {"joints": skin.joints.tolist(), "inverseBindMatrices": self._out.array(columns)}
             self._skins[number] = self._out.add("skins", joints)
         return self._skins[number]
-
-    def _mark_joints(self, scene: list[int], parent: list[int], moving: set[int]) -> None:
-        """What is animated and all below it: the joints that the reader takes."""
-        for node in scene:  # parents come first
-            if node in moving or parent[node] in moving:
-                moving.add(node)
-                self._out.parts["nodes"][node]["extras"] = {"joint": True}
 
     def _animation(self, channels: list[Channel]) -> None:
         """The take. Key times that many channels share are written once; values are read when they are written."""

@@ -8,6 +8,7 @@ import numpy as np
 
 from caesura.core.analysis import Analysis
 from caesura.core.animation import Animation
+from caesura.core.block_pass.body_size import scale_to_rest_size
 from caesura.core.block_pass.rest_pose import compute_rest_pose
 from caesura.core.descriptors.descriptor import Descriptor, DescriptorInput
 from caesura.core.descriptors.strain import TriangleStrain
@@ -26,12 +27,15 @@ WITHOUT_STRAIN = {"no-strain", "no-deformation"}
 class Playback:
     """`document` is what the service answers, without addresses. The streams can be read once, in any order.
 
+    `materials` are those of the model with their images.
+
     They draw from the animation, so what it was read from must still be there.
     """
 
     document: dict[str, Any]
     model: Iterator[bytes]
     strain: Iterator[bytes] | None
+    materials: Iterator[bytes] | None = None
 
 
 def make_playback(
@@ -46,8 +50,9 @@ def make_playback(
     of_vertex = np.zeros(animation.vertex_count, np.int64) if surface is None else surface.of_vertex
     shown = {"vertices": animation.vertex_count, "triangles": len(animation.triangles)}
     kind = "vertices" if animation.gltf is None else "gltf"
+    materials = None
     if animation.gltf is not None:
-        model = write_playable_gltf(animation.gltf, animation.take.index, of_vertex)
+        model, materials = write_playable_gltf(animation.gltf, animation.take.index, of_vertex)
     else:
         mesh = choose_display_mesh(animation)
         model = write_vertex_blocks(animation, mesh, of_vertex, threads=threads, progress=progress)
@@ -63,8 +68,18 @@ def make_playback(
     }
     strain = None
     if surface is not None:
-        strain = write_strain_blocks(animation, surface, analysis.strain_scale, threads=threads, progress=progress)
-    return Playback(document, model, strain)
+        measured = _as_measured(animation, Parameters.model_validate(analysis.heavy))
+        strain = write_strain_blocks(measured, surface, analysis.strain_scale, threads=threads, progress=progress)
+    return Playback(document, model, strain, materials)
+
+
+def _as_measured(animation: Animation, chosen: Parameters) -> Animation:
+    """The animation with its size taken out where the analysis took it out."""
+    return (
+        scale_to_rest_size(animation, compute_rest_pose(animation, chosen.rest))
+        if chosen.scale_invariant
+        else animation
+    )
 
 
 def _patches(animation: Animation, analysis: Analysis) -> DisplayPatches | None:
@@ -80,6 +95,4 @@ def _patches(animation: Animation, analysis: Analysis) -> DisplayPatches | None:
     def descriptor(strain: TriangleStrain) -> Descriptor:
         return measured.load()(DescriptorInput(animation, rest, strain, chosen))
 
-    return choose_display_patches(
-        rest, animation.triangles, animation.frames, chosen.strain, chosen.scale_invariant, descriptor
-    )
+    return choose_display_patches(rest, animation.triangles, animation.frames, chosen.strain, descriptor)

@@ -41,7 +41,6 @@ def choose_display_patches(
     triangles: Int[np.ndarray, "T 3"],
     frames: int,
     measure: str,
-    scale_invariant: bool,
     descriptor: Callable[[TriangleStrain], Descriptor] = lambda strain: strain,
 ) -> DisplayPatches:
     """The patches to show, of strain or of another `descriptor` of the same triangles.
@@ -50,7 +49,7 @@ def choose_display_patches(
     """
     count = min(max(FILE_BYTES // frames, FEWEST_PATCHES), MOST_PATCHES)
     patch = assign_patches(rest, triangles, count)
-    strain = TriangleStrain.of(rest, triangles, np.argsort(patch, kind="stable"), measure, scale_invariant)
+    strain = TriangleStrain.of(rest, triangles, np.argsort(patch, kind="stable"), measure)
     met = np.unique(patch[strain.triangles])
     patch = np.searchsorted(met, patch).clip(max=max(len(met) - 1, 0))
     of_vertex = np.zeros(len(rest), np.int64)

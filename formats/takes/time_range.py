@@ -3,7 +3,7 @@
 from caesura.core.errors import ParameterError
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
-from caesura.formats.frame_rate import count_frames
+from caesura.formats.takes.frame_rate import count_frames
 
 
 def parse_time_range(parameters: Parameters, duration: float, first_key: float = 0.0) -> tuple[float, float]:

@@ -30,7 +30,7 @@ ZIP64_FROM = 2**31 - 1
 """Offsets beyond this need the larger records of zip64; in a smaller file they only hide what it holds."""
 
 
-class Archive:
+class ZipArchive:
     """The arrays of an NPZ, by name without `.npy`; `file` must be seekable and stay open.
 
     Raises `BrokenContainer("malformed-npz")`, `UnsupportedMedia` for a zip of other things, or `LimitExceeded`.

@@ -2,7 +2,7 @@
 
 take_choice   which animation is the take
 channels      the channels of an animation
-key_times     key times read from a GLB in small pieces
+glb_key_times key times read from a GLB in small pieces
 sampling      interpolation of the keys
 sampled_take  the frames of one take, or of all takes joined
 """

@@ -15,7 +15,7 @@ MOST_KEYS_IN_ALL = 100_000
 """Keys that are read of all takes together; a file with more is told the rest by their bounds."""
 
 
-class KeyTimes:
+class KeyTimeReader:
     """Reads the GLB `file`, whose JSON chunk ends at `end_of_json`."""
 
     def __init__(self, file: BinaryIO, end_of_json: int, json: dict[str, Any]) -> None:

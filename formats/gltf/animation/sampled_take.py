@@ -9,13 +9,13 @@ from caesura.core.animation import Take, Vertices
 from caesura.core.errors import ParameterError
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
-from caesura.formats.frame_rate import count_frames
 from caesura.formats.gltf.animation.sampling import KeyTracks
 from caesura.formats.gltf.animation.take_choice import ChosenTake
-from caesura.formats.gltf.posing.vertices import PosedVertices
-from caesura.formats.joined_takes import JoinedTakes
+from caesura.formats.gltf.posing.posed_vertices import PosedVertices
 from caesura.formats.notices import Notices
-from caesura.formats.time_range import check_frame_count, parse_time_range
+from caesura.formats.takes.frame_rate import count_frames
+from caesura.formats.takes.joined_takes import JoinedTakes
+from caesura.formats.takes.time_range import check_frame_count, parse_time_range
 
 SHOWN = 20
 

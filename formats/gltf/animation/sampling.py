@@ -7,7 +7,7 @@ from jaxtyping import Float, Int
 
 from caesura.formats.gltf.animation.channels import WIDTHS, Channel
 from caesura.formats.gltf.geometry.accessors import AccessorLayout, Accessors
-from caesura.formats.gltf.posing.nodes import R, S, T, unit_rotations
+from caesura.formats.gltf.posing.node_graph import R, S, T, unit_rotations
 from caesura.formats.kernels.keyframe_sampling import CUBIC, LINEAR, STEP, sample_tracks
 
 MODES = {"STEP": STEP, "LINEAR": LINEAR, "CUBICSPLINE": CUBIC}

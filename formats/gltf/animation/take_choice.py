@@ -6,7 +6,7 @@ from caesura.core.errors import InvalidModel
 from caesura.formats.gltf.animation.channels import Channel, read_channels
 from caesura.formats.gltf.geometry.accessors import Accessors
 from caesura.formats.gltf.gltf_document import GltfDocument
-from caesura.formats.take_selection import select_take
+from caesura.formats.takes.take_selection import select_take
 
 
 @dataclass(frozen=True)

@@ -4,5 +4,5 @@ buffers       buffers and views of them
 accessors     arrays from accessors
 primitives    triangles and morph targets of a mesh
 skin_weights  joints and weights of each vertex
-instances     instances of a mesh
+gpu_instancing     instances of a mesh
 """

@@ -8,7 +8,7 @@ from jaxtyping import Float
 from caesura.formats.gltf.geometry.accessors import AccessorLayout, Accessors
 from caesura.formats.gltf.gltf_document import GltfDocument
 from caesura.formats.gltf.json_object import JsonObject
-from caesura.formats.gltf.posing.nodes import unit_rotations
+from caesura.formats.gltf.posing.node_graph import unit_rotations
 from caesura.formats.gltf.posing.skins import IDENTITY
 from caesura.formats.kernels.posing import compute_world_matrices
 

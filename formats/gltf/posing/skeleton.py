@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from caesura.formats.gltf.animation.sampling import PoseSlots
-from caesura.formats.gltf.posing.nodes import NodeGraph
+from caesura.formats.gltf.posing.node_graph import NodeGraph
 from caesura.formats.gltf.scene_mesh import SceneMesh
 from caesura.formats.kernels.posing import compute_bone_matrices, compute_world_matrices
 
