@@ -6,7 +6,9 @@ A missing tool or folder skips a test on a laptop and fails it where `CI=true`: 
 import importlib.util
 import os
 import shutil
+from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 from typing import NoReturn
 
 import pytest
@@ -34,16 +36,19 @@ def hooked_modules() -> list[str]:
 install_import_hook(hooked_modules(), "beartype.beartype")
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The browser comes last: Playwright keeps an event loop in this thread, in which nobody else's can run."""
-    items.sort(key=lambda item: (CHECKOUT / "tests" / "browser") in item.path.parents)
-
-
 def unavailable(what: str) -> NoReturn:
     """Skip the test that needs `what`, or fail it where `CI=true`."""
     if os.environ.get("CI") == "true":
         pytest.fail(f"{what}, and with CI=true nothing may be left out", pytrace=False)
     pytest.skip(what)
+
+
+def installed(library: str) -> ModuleType:
+    """A library that `make extras` brings; without it the test is left out."""
+    try:
+        return import_module(library)
+    except ImportError:
+        unavailable(f"{library} is not installed")
 
 
 @pytest.fixture(scope="session")

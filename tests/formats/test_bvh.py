@@ -8,7 +8,7 @@ import pytest
 from caesura.core.errors import BrokenContainer, CaesuraError, InvalidModel, LimitExceeded
 from caesura.core.limits import Limits
 from caesura.formats.bvh.hierarchy import read_bvh_header
-from caesura.formats.file_header import HeaderTake, read_header
+from caesura.formats.upload_summary import HeaderTake, read_header
 from tests.formats.opening import codes, opened
 
 ARM = """HIERARCHY
@@ -47,6 +47,20 @@ def test_joints_are_where_their_channels_put_them() -> None:
     ]
     np.testing.assert_allclose(arm.vertices(0, 3), expected, atol=1e-5)
     assert arm.gltf is not None
+
+
+def test_several_roots_below_one_without_channels() -> None:
+    """As Blender writes them: that root never moves, and is no joint of the figure."""
+    roots = "".join(
+        f"JOINT j{i} {{ OFFSET {i} 0 0 CHANNELS 6 Xposition Yposition Zposition Xrotation Yrotation Zrotation"
+        " End Site { OFFSET 0 1 0 } } "
+        for i in range(2)
+    )
+    text = f"HIERARCHY\nROOT __0\n{{\nOFFSET 0.0 0.0 0.0\nCHANNELS 0\n{roots}\n}}\nMOTION\nFrames: 2\n"
+    text += "Frame Time: 0.033333\n5 0 0 0 0 0 7 0 0 0 0 0\n5 1 0 0 0 0 7 0 0 0 0 90\n"
+    drawn = opened(text.encode()).vertices(0, 2)
+    np.testing.assert_allclose(drawn[0], [[5, 0, 0], [5, 1, 0], [7, 0, 0], [7, 1, 0]], atol=1e-6)
+    np.testing.assert_allclose(drawn[1], [[5, 1, 0], [5, 2, 0], [7, 0, 0], [6, 0, 0]], atol=1e-6)
 
 
 def test_rotations_are_products_of_matrices() -> None:
@@ -92,7 +106,10 @@ def test_the_header_tells_joints_and_frames() -> None:
         ("OFFSET 0 2 0", "OFFSET 0 x 0", "malformed-bvh"),
         ("OFFSET 0 2 0", "OFFSET 0 inf 0", "malformed-bvh"),
         ("CHANNELS 3", "CHANNELS 99999999999", "malformed-bvh"),
+        ("CHANNELS 3", "CHANNELS -1", "malformed-bvh"),
         ("CHANNELS 3", "CHANNELS 0", "malformed-bvh"),
+        ("CHANNELS 3", "CHANNELS", "malformed-bvh"),
+        ("CHANNELS 6", "CHANNELS \u00b2", "malformed-bvh"),
         ("Zrotation", "Wrotation", "malformed-bvh"),
         ("JOINT Upper arm\n  {", "JOINT Upper arm", "malformed-bvh"),
         ("90 90 0", "90 ninety 0", "malformed-bvh"),

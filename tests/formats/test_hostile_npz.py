@@ -58,6 +58,7 @@ DIRECTORY = GOOD.index(b"PK\1\2")
 NAN = FRAMES.copy()
 NAN[4, 2, 1] = np.nan
 
+POSES = np.ones((9, 72))
 TRIANGLE_MINUS = TRIANGLES.copy()
 TRIANGLE_MINUS[0, 0] = -1
 
@@ -107,7 +108,20 @@ FAULTS: list[tuple[str, bytes, str]] = [
     ("triangles missing", zipped({"vertices.npy": npy(FRAMES)}), "wrong-shape"),
     ("vertices missing", zipped({"triangles.npy": npy(TRIANGLES)}), "wrong-shape"),
     ("a frame an array", zipped({f"frame{i}.npy": npy(FRAMES[i]) for i in range(2)}), "varying-topology"),
-    ("a body model", zipped({"poses.npy": npy(FRAMES), "betas.npy": npy(FRAMES)}), "body-model-parameters"),
+    ("a body model", zipped({"body_pose.npy": npy(FRAMES), "betas.npy": npy(FRAMES)}), "body-model-parameters"),
+    ("poses of five joints", zipped({"poses.npy": npy(FRAMES), "betas.npy": npy(FRAMES)}), "wrong-shape"),
+    ("poses of 73 numbers", zipped({"poses.npy": npy(np.zeros((9, 73)))}), "wrong-shape"),
+    ("poses of 24 joints in the plane", zipped({"poses.npy": npy(np.zeros((9, 36, 2)))}), "wrong-shape"),
+    ("one number as poses", zipped({"poses.npy": npy(np.float64(3))}), "wrong-shape"),
+    ("no poses", zipped({"poses.npy": npy(POSES[:0])}), "no-motion"),
+    ("poses with NaN", zipped({"poses.npy": npy(POSES * np.nan)}), "non-finite-data"),
+    ("poses beyond all angles", zipped({"poses.npy": npy(POSES * 1e39)}), "non-finite-data"),
+    ("places of other frames", zipped({"poses.npy": npy(POSES), "trans.npy": npy(POSES[:8, :3])}), "wrong-shape"),
+    ("places beyond all bounds", zipped({"poses.npy": npy(POSES), "trans.npy": npy(POSES[:, :3] * 1e39)}),
+     "non-finite-data"),
+    ("poses without end", zipped({"poses.npy": npy(POSES), "fps.npy": npy(np.float64(5e-324))}), "animation-too-long"),
+    ("poses at no rate", zipped({"poses.npy": npy(POSES), "mocap_framerate.npy": npy(np.float64(0))}),
+     "invalid-frame-rate"),
     ("NaN rest", npz(rest=NAN[4]), "non-finite-data"),
     ("rate 0", npz(frame_rate=0), "invalid-frame-rate"),
     ("rate NaN", npz(fps=np.nan), "invalid-frame-rate"),

@@ -11,7 +11,7 @@ import pytest
 
 from caesura.core.errors import BrokenContainer, InvalidModel, LimitExceeded, UnsupportedMedia
 from caesura.core.limits import Limits
-from caesura.formats.file_header import MOST_JSON, Header, HeaderTake, read_header
+from caesura.formats.upload_summary import MOST_JSON, Header, HeaderTake, read_header
 from tests.glb import square
 
 TWO_TAKES = b"""{"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}, {"mesh": 0}],
@@ -104,9 +104,8 @@ def test_the_limit_on_json_holds_for_headers() -> None:
 
 def test_reading_headers_loads_no_numerics() -> None:
     """The web process reads headers, and must stay small."""
-    script = (
-        "import sys, caesura.formats.file_header; sys.exit(any(m in sys.modules for m in ('numpy', 'numba', 'scipy')))"
-    )
+    loaded = "any(module in sys.modules for module in ('numpy', 'numba', 'scipy'))"
+    script = f"import sys, caesura.formats.upload_summary; sys.exit({loaded})"
     subprocess.run([sys.executable, "-c", script], check=True)
 
 

@@ -12,7 +12,7 @@ import trimesh
 
 from caesura.core.errors import BrokenContainer, CaesuraError, InvalidModel, LimitExceeded
 from caesura.core.limits import Limits
-from caesura.formats.file_header import read_header
+from caesura.formats.upload_summary import read_header
 from tests.formats.opening import codes, opened
 from tests.formats.test_npz import npz
 from tests.glb import moving_square

@@ -9,7 +9,7 @@ from starlette.requests import Request
 from caesura.core.errors import CaesuraError
 from caesura.core.parameters import Parameters
 from caesura.core.revision import check_edits
-from caesura.service.commands.labelling import Labelling
+from caesura.service.commands.frame_labels import Labelling
 from caesura.service.results.revision_request import parse_revision_request
 from caesura.service.segmentations.segmentation_request import request_from_json
 
@@ -63,7 +63,7 @@ def _labelling(data: bytes) -> None:
     try:
         Labelling.of(json.loads(data))
     except (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError):
-        return  # as `Labelling.read` has it, which makes a sentence of each
+        return  # as the command has it, which makes a sentence of each
 
 
 def _run(reading: Coroutine[Any, Any, T]) -> T:

@@ -7,6 +7,7 @@ import base64
 import io
 import json
 import random
+import re
 import struct
 import warnings
 import zipfile
@@ -23,6 +24,9 @@ TEXT = [
     *b"0 -1 -3 1e400 1e39 nan inf 99999999999999999999 x { } ROOT JOINT End OFFSET CHANNELS MOTION Frames:".split(),
     *b"Frame Time: f v 1/1/1 element property list '|O' '<f8' '<u8' '>i2' '<c8' (3,) () True ((1,2),3)".split(),
     *(b"f 1 2 3 4", b"format binary_little_endian 1.0", b"(9, 5, 3)", b"(0, 0, 3)", b"(1000000000, 5, 3)"),
+    *b":DEGREES :RADIANS dof rx tx l axis XYZ direction length begin end root :hierarchy :units".split(),
+    *b'TIME_VALUE="1e9" TIME_VALUE="-9" TIME_SLOT_REF1="ts9" <TIER> </TIER> <!DOCTYPE &a; &#x41; <![CDATA['.split(),
+    *b"start,end,label start_seconds,end_seconds,motion frame,name -1e308 ;;; \t".split(),
     *b"usemtl g o vn vt l / // -1/2 1//0 uint8 float64 ascii end_header vertex face".split(),
     *(
         b"\nusemtl x\nf 1 2 3",
@@ -32,7 +36,10 @@ TEXT = [
         b"element x 1000000",
     ),
 ]
-"""Words of BVH, OBJ, PLY and of the headers of NumPy's arrays."""
+"""Words of BVH, OBJ, PLY, ASF, AMC, of labels and of the headers of NumPy's arrays."""
+
+FIGURES = (b"0", b"-1", b"0.5", b"1e9", b"-1e308", b"1e308", b"1e400", b"nan", b"1,5", b"100000000000000", b"7" * 5000)
+"""Numbers that a text may hold where others stood."""
 
 NAMES = (
     "rest.npy", "fps.npy", "a/b.obj", "x.gltf", "x.bin", "../v", "9" * 400 + "a.obj", "9" * 20_000 + "a1.obj", "1.obj",
@@ -68,7 +75,8 @@ def _file(data: bytes, draw: random.Random) -> bytes:
     except (ValueError, KeyError, TypeError, IndexError, AttributeError, RecursionError, struct.error,
             OSError, EOFError, RuntimeError, zipfile.BadZipFile, zlib.error):  # fmt: skip
         return scrambled(data, draw)
-    return worded(data, draw) if draw.random() < 0.8 else scrambled(data, draw)
+    changed_as = numbered if b"\0" in data[:64] else worded
+    return changed_as(data, draw) if draw.random() < 0.8 else scrambled(data, draw)
 
 
 def _glb(data: bytes, draw: random.Random) -> bytes:
@@ -144,11 +152,15 @@ def worded(data: bytes, draw: random.Random) -> bytes:
         place = draw.randrange(len(lines))
         words = lines[place].split(b" ")
         action = draw.random()
-        if action < 0.55:
+        if action < 0.45:
             words[draw.randrange(len(words))] = draw.choice(TEXT)
             lines[place] = b" ".join(words)
+        elif action < 0.55:
+            numbers = list(re.finditer(rb"-?\d[\d.]*", lines[place][:1000]))
+            start, end = draw.choice(numbers).span() if numbers else (0, 0)
+            lines[place] = lines[place][:start] + draw.choice(FIGURES) + lines[place][end:]
         elif action < 0.6:
-            lines[place] = b" ".join(words[:1] + words[1:][:8] * draw.choice(MANY))
+            lines[place] = b" ".join(words[:1] + [word[:64] for word in words[1:9]] * draw.choice(MANY))
         elif action < 0.75:
             lines.insert(place, draw.choice(lines))
         elif action < 0.9 and len(lines) > 1:

@@ -9,16 +9,23 @@ from caesura.core.limits import Limits
 from caesura.formats.bundle.polygon_mesh import read_obj
 from caesura.formats.bvh.gltf_conversion import convert_bvh_to_glb
 from caesura.worker.process.warm_up import example_gltf
-from tests.formats import test_hostile_gltf as hostile
 from tests.formats import test_hostile_npz as archives
 from tests.formats.bundle import test_polygon_shapes as polygons
+from tests.formats.c3d_files import DEC, INTEL, SGI, c3d
+from tests.formats.gltf import test_hostile_gltf as hostile
 from tests.formats.gltf.test_draco import compressed
 from tests.formats.gltf.test_instances import instanced
+from tests.formats.gltf.test_mesh_and_motion import mesh, skeleton
+from tests.formats.gltf.test_vrm_animation import waving
+from tests.formats.native import fbx_text
+from tests.formats.native.fbx_binary import binary
+from tests.formats.point_caches import MESH, folding_sheet, mdd, pc2
+from tests.formats.test_asf import ASF, amc
+from tests.formats.test_body_poses import amass
 from tests.formats.test_bvh import ARM
-from tests.formats.test_mesh_and_motion import mesh, skeleton
 from tests.formats.test_npz import npz
 from tests.formats.test_zip import SHAPE, separate, shapes, zipped
-from tests.fuzz import bodies
+from tests.fuzz import bodies, labels
 from tests.fuzz.mutations import NAMES
 from tests.fuzz.parts import joined
 from tests.glb import Glb, bending_strip, moving_square, square
@@ -62,6 +69,7 @@ def _all() -> Iterator[bytes]:
     yield from (_mutated(moving_square(), mutate) for _, mutate, _ in hostile.ODD[1:])
     yield from (data for _, data, _ in [*hostile.CONTAINERS, *archives.FAULTS])
     yield from bodies.seeds()
+    yield from labels.seeds()
     yield from (zipped({name: SHAPE, "a2.obj": SHAPE}) for name in NAMES)
     for read, data, _ in polygons.BROKEN.values():
         yield polygons.frames(data, "obj" if read is read_obj else "ply")
@@ -72,16 +80,25 @@ def _good() -> Iterator[bytes]:
     for model in (moving_square(), bending_strip(), _splines(), _strips(), _sparse(), _two_takes(), _skeleton()):
         yield model.glb()
         yield model.gltf()
+    yield waving().glb()
     yield compressed().glb()
     yield instanced(TRANSLATION=([[0, 0, 0], [0, 5, 0]], "float32"), SCALE=([[1, 1, 1], [2, 2, 2]], "float32")).glb()
     yield _packed().glb()
     yield example_gltf()
     yield npz()
+    yield amass(np.ones((3, 72)))
+    yield amass(np.ones((3, 52, 3)), mocap_frame_rate=np.float32(30))
     yield npz(deflate=True, frame_rate=25.0, rest=np.zeros((5, 3)))
     yield npz(vertices=np.asfortranarray(archives.FRAMES.astype(">f8")))
     yield npz(vertices=archives.FRAMES.astype("f2"), triangles=archives.TRIANGLES.astype("u1"))
     yield ARM.encode()
-    yield convert_bvh_to_glb(memoryview(ARM.encode()), Limits())
+    for made in (fbx_text.moving_square(), fbx_text.bending_strip(), fbx_text.blending_square()):
+        yield made.data()
+        yield binary(made.data())
+    yield bytes(convert_bvh_to_glb(memoryview(ARM.encode()), Limits()).glb)
+    for processor in (INTEL, DEC, SGI):
+        yield c3d(np.ones((3, 4, 3)), processor=processor, analog=2, more={("TRIAL", "ACTUAL_END_FIELD"): [3, 0]})
+    yield c3d(np.ones((60, 2, 3)), scale=0.5, rate=30.0, hidden=np.arange(120).reshape(60, 2) % 7 == 0)
     yield zipped(separate())
     yield zipped(separate(), zipfile.ZIP_STORED)
     yield zipped({"export/arm.bvh": ARM.encode()})
@@ -95,6 +112,11 @@ def _uploads() -> Iterator[bytes]:
     yield joined(separate())
     yield joined({"mesh.glb": mesh().glb(), "motion.glb": skeleton().glb()})
     yield joined({"mesh.gltf": mesh().gltf(), "motion.gltf": skeleton().gltf()})
+    yield joined({"arm.amc": amc(), "arm.asf": ASF.encode()})
+    yield zipped({"arm.amc": amc(head=":SAMPLES-PER-SECOND 60"), "arm.asf": ASF.encode()})
+    yield joined({"a.pc2": pc2(folding_sheet(3)), "a.obj": MESH})
+    yield joined({"a.mdd": mdd(folding_sheet(3), np.arange(3) / 24), "a.obj": MESH})
+    yield zipped({"a.mdd": mdd(folding_sheet(3), np.arange(3) / 24), "a.obj": MESH}, zipfile.ZIP_STORED)
     yield joined({"mesh.glb": mesh().glb(), "arm.bvh": ARM.replace("Hips", "lower").encode()})
 
 

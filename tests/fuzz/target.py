@@ -1,4 +1,5 @@
-"""What the fuzzer does with a file: reads its header, takes and animation, draws frames, takes JSON for a request."""
+"""What the fuzzer does with a file: reads its header, takes and animation, draws frames; takes JSON for a request,
+and text for labels."""
 
 import io
 import time
@@ -7,9 +8,11 @@ import zlib
 from caesura.core.errors import CaesuraError
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
-from caesura.formats.file_header import read_header
+from caesura.formats.file_type import SIGNATURE_BYTES, detect_file_type
 from caesura.formats.read import list_takes, read_animation
+from caesura.formats.upload_summary import read_header
 from tests.fuzz.bodies import attempt_bodies
+from tests.fuzz.labels import attempt_labels
 from tests.fuzz.parts import parted
 
 LIMITS = Limits(
@@ -27,6 +30,9 @@ LONGEST_SECONDS = 2.0
 
 MOST_DRAWN = 2_000_000
 """Coordinates of the frames that are drawn at a time."""
+
+NATIVE = {"fbx", "abc", "usd"}
+"""Formats that are read by libraries of native code, of which the headers alone are ours."""
 
 ASKED = (
     {},
@@ -64,6 +70,9 @@ def _attempted(data: bytes) -> bool:
     if data.lstrip()[:1] in {b"{", b"["}:
         for refused in attempt_bodies(data):
             _told(refused)
+    if b"\0" not in data[:SIGNATURE_BYTES]:
+        for refused in attempt_labels(data):
+            _told(refused)
     return [_header(parts), _takes(parts), _frames(parts, asked)][-1]
 
 
@@ -84,6 +93,8 @@ def _takes(parts: dict[str, bytes]) -> None:
 
 def _frames(parts: dict[str, bytes], asked: Parameters) -> bool:
     try:
+        if any(detect_file_type(data[:SIGNATURE_BYTES]) in NATIVE for data in parts.values()):
+            return False  # each would be a process: tests.fuzz.native
         animation = read_animation(parts, asked, LIMITS, lambda size: memoryview(bytearray(size)))
         block = min(max(MOST_DRAWN // (3 * animation.vertex_count), 1), 3)
         for first in {0, animation.frames // 2, max(animation.frames - block, 0)}:

@@ -78,8 +78,8 @@ def test_no_key_frames_are_no_file():
     assert refused.value.code == "no-key-frames"
 
 
-def test_a_bvh_comes_back_as_clips_of_its_skeleton():
-    """What is read as a glTF is written as one."""
+def test_a_bvh_can_come_back_as_a_glb_of_its_skeleton():
+    """What is read as a glTF is written as one, where that is asked for."""
     frames = "\n".join(f"{i} 0 0 {i * 3} 0 0" for i in range(20))
     data = (
         "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\n"
@@ -88,7 +88,7 @@ def test_a_bvh_comes_back_as_clips_of_its_skeleton():
     ).encode()
     take = opened(data, fps=30)
     document = cut_at(take, [8])
-    glb = clips_of(data, document)
+    glb = clips_of(data, document, form="glb")
     assert names_of(glb) == ["A_01", "B_01"]
     clip = opened(glb, take="B_01", fps=30)
     np.testing.assert_allclose(clip.vertices(0, clip.frames), take.vertices(8, 8 + clip.frames), atol=1e-5)

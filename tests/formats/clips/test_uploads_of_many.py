@@ -5,9 +5,9 @@ import pytest
 
 from caesura.core.errors import CaesuraError
 from tests.formats.clips.making import clips_of, cut_at, names_of
+from tests.formats.gltf.test_mesh_and_motion import mesh, skeleton
 from tests.formats.opening import opened
 from tests.formats.test_bvh import ARM
-from tests.formats.test_mesh_and_motion import mesh, skeleton
 from tests.formats.test_zip import separate, zipped
 from tests.glb import moving_square
 
@@ -26,7 +26,7 @@ def test_clips_are_one_file_and_show_the_frames_of_the_upload(parts: dict[str, b
     """Every clip by its name; its frames are those that it was cut from."""
     take = opened(parts, fps=30)
     cut = max(take.frames // 2, 1)
-    made = clips_of(parts, cut_at(take, [cut] if take.frames > 2 else []))
+    made = clips_of(parts, cut_at(take, [cut] if take.frames > 2 else []), form="glb")
     clip = opened(made, fps=30, take=names_of(made)[0])
     assert clip.vertex_count == take.vertex_count
     shown = min(cut, clip.frames)

@@ -1,6 +1,6 @@
 """The table of exports names what is there."""
 
-from caesura.formats.exports.table import EXPORTS, exports_of
+from caesura.formats.exports.export_table import EXPORTS, exports_of
 
 
 def test_every_export_has_a_writer_and_an_address_of_its_own() -> None:

@@ -2,6 +2,7 @@
 
 from caesura.core.segmentation_document import Segment, SegmentationDocument, Source
 from caesura.formats.exports.csv_tables import segments_csv
+from caesura.formats.exports.elan import segments_eaf
 from caesura.formats.exports.webvtt import segments_vtt
 
 
@@ -23,6 +24,15 @@ def test_a_name_stays_a_name():
     """Markup, arrows and line breaks in VTT; commas and quotes in CSV."""
     assert "a &lt;b&gt; --&gt; c" in segments_vtt(document("a <b>\n\n--> c"))
     assert segments_csv(document('walk, "fast"')).splitlines()[1].startswith('"walk, ""fast""",0,0,2,')
+
+
+def test_a_discarded_segment_is_marked():
+    """Who subtitles a video or annotates it sees which are no clips."""
+    kept = document("T-pose").segments[0]
+    found = document("A").model_copy(update={"segments": (kept.model_copy(update={"discard": True}), kept)})
+    assert [line for line in segments_vtt(found).splitlines() if "T-pose" in line] == ["T-pose (discarded)", "T-pose"]
+    assert segments_eaf(found).count('TIER_ID="discarded"') == 1
+    assert 'TIER_ID="discarded"' not in segments_eaf(document("A"))
 
 
 def test_players_take_only_cues_that_last():

@@ -8,7 +8,7 @@ import pytest
 
 from caesura.core.errors import InvalidModel, LimitExceeded
 from caesura.core.limits import Limits
-from caesura.formats.file_header import read_header
+from caesura.formats.upload_summary import read_header
 from tests.formats.opening import codes, opened
 from tests.glb import SQUARE, Glb, bending_strip, moving_square
 

@@ -69,7 +69,7 @@ def test_positions_come_back_within_half_a_step() -> None:
 def test_strain_is_a_byte_of_what_counts_as_one(threads: int) -> None:
     """An even stretch by σ is ln σ on every patch; over the scale it stays at 255; threads change nothing."""
     animation = stretched(70)
-    shown = choose_display_patches(animation.rest, animation.triangles, animation.frames, "log", scale_invariant=False)
+    shown = choose_display_patches(animation.rest, animation.triangles, animation.frames, "log")
     scale = float(np.log(1.4))
     header, blocks = unpacked(b"".join(write_strain_blocks(animation, shown, scale, threads=threads)))
     found = np.frombuffer(blocks, "u1").reshape(70, header["patches"])
@@ -81,8 +81,8 @@ def test_strain_is_a_byte_of_what_counts_as_one(threads: int) -> None:
 def test_patches_grow_fewer_with_the_length() -> None:
     """The strain of a take of any sensible length stays below 64 MB."""
     animation = stretched(2)
-    few = choose_display_patches(animation.rest, animation.triangles, 1_000_000, "log", scale_invariant=False)
-    many = choose_display_patches(animation.rest, animation.triangles, 1000, "log", scale_invariant=False)
+    few = choose_display_patches(animation.rest, animation.triangles, 1_000_000, "log")
+    many = choose_display_patches(animation.rest, animation.triangles, 1000, "log")
     assert few.means.patches <= 67 < many.means.patches
 
 
@@ -119,11 +119,11 @@ def test_a_plain_copy_of_our_own_figures_moves_as_they_do(name: str) -> None:
 
 
 def test_a_plain_copy_holds_nothing_that_is_not_played() -> None:
-    """One animation, no image, no material, no name; every vertex knows its patch."""
+    """One animation, no image, no name; every vertex knows its patch."""
     _, copy, strain = plain(build_figure("smooth").glb)
     document = json.loads(copy[20 : 20 + int.from_bytes(copy[12:16], "little")])
     assert len(document["animations"]) == 1
-    assert not document.keys() & {"images", "textures", "samplers", "materials", "cameras", "extensionsRequired"}
+    assert not document.keys() & {"images", "textures", "samplers", "cameras", "extensionsRequired"}
     assert not any("name" in node for node in document["nodes"])
     assert all("_PATCH" in p["attributes"] for mesh in document["meshes"] for p in mesh["primitives"])
     assert unpacked(strain)[0]["patches"] > 0

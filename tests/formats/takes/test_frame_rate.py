@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from caesura.formats.frame_rate import KNOWN, count_frames, estimate_key_rate
+from caesura.formats.takes.frame_rate import KNOWN, count_frames, estimate_key_rate
 
 
 @pytest.mark.parametrize("rate", KNOWN)
