@@ -4,12 +4,12 @@ Written as differences to the easy stance. Flexion is forward or the way the joi
 (trunk: to the left), twist is outward (trunk: to the left); see samples/skeleton.py.
 """
 
-from caesura.samples.repertoire.dance import SWAY, TURN, TWIST
 from caesura.samples.repertoire.exercises import JUMP, JUMPING_JACK, KICK, LUNGE, SQUAT
 from caesura.samples.repertoire.gaits import LIMP, MARCH, RUN, SNEAK, WALK
 from caesura.samples.repertoire.gestures import ARM_CIRCLES, BOW, CLAP, DRINK, LOOK_AROUND, STRETCH, WAVE
 from caesura.samples.repertoire.pauses import STILL, T_POSE
 from caesura.samples.repertoire.strikes import CHOP, PUNCH, THROW
+from caesura.samples.repertoire.trunk_motions import SWAY, TURN, TWIST
 
 __all__ = ["MOTIONS", "STILL", "T_POSE"]
 
