@@ -44,6 +44,19 @@ class Animations:
 
         return transact(self._redis, keep, key)
 
+    def rename(self, identifier: str, name: str) -> AnimationRecord | None:
+        """Call an animation otherwise; answers it as it was before, or None where it has gone."""
+        key = redis_keys.animation_key(identifier)
+
+        def write(pipe: Pipeline) -> AnimationRecord | None:
+            before = AnimationRecord.read(pipe.get(key))
+            pipe.multi()
+            if before is not None:
+                pipe.set(key, before.model_copy(update={"name": name}).model_dump_json())
+            return before
+
+        return transact(self._redis, write, key)
+
     def strip(self, record: AnimationRecord) -> None:
         """Forget where its files were: they are gone."""
         self._redis.set(

@@ -44,7 +44,7 @@ def tolerate_full_disk() -> Iterator[None]:
             raise
 
 
-def await_writes(client: redis.Redis, seconds: float = math.inf) -> None:
+def await_writable(client: redis.Redis, seconds: float = math.inf) -> None:
     """Wait until Redis takes writes; raises its refusal after so many seconds. It tries its file again every second."""
     deadline = time.monotonic() + seconds
     while True:

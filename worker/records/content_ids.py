@@ -43,6 +43,12 @@ def segmentation_id(secret: bytes, animation: str, canonical: str, algorithm: st
     return _digest(secret, "segmentation", animation, canonical, algorithm)
 
 
+def webhook_secret(secret: bytes, owner: str) -> bytes:
+    """The key that webhooks of an owner are signed with: 32 bytes, made of the installation's secret."""
+    text = json.dumps(["webhook", owner]).encode()
+    return hashlib.blake2b(text, key=secret, digest_size=32).digest()
+
+
 def heavy_digest(heavy: dict[str, object], algorithm: str) -> str:
     """Names an analysis among those of one animation: what `Parameters.heavy()` says, and the algorithm."""
     return _digest(b"", "analysis", json.dumps(heavy, sort_keys=True), algorithm)

@@ -11,7 +11,9 @@ Status = Literal["queued", "running", "done", "failed", "cancelled"]
 Queue = Literal["analyse", "cut"]
 
 
-class _Record(BaseModel):
+class Record(BaseModel):
+    """A frozen value that Redis holds as JSON."""
+
     model_config = ConfigDict(frozen=True)
 
     @classmethod
@@ -20,7 +22,7 @@ class _Record(BaseModel):
         return None if stored is None else cls.model_validate_json(stored)
 
 
-class Part(_Record):
+class Part(Record):
     """One file of an upload: its name, its blob, its size."""
 
     name: str
@@ -28,7 +30,7 @@ class Part(_Record):
     bytes: int
 
 
-class TakeSummary(_Record):
+class TakeSummary(Record):
     """One animation of the file, as its header tells; the worker's count of frames holds."""
 
     index: int
@@ -41,7 +43,7 @@ class TakeSummary(_Record):
 TAKES: TypeAdapter[tuple[TakeSummary, ...]] = TypeAdapter(tuple[TakeSummary, ...])
 
 
-class AnimationRecord(_Record):
+class AnimationRecord(Record):
     """An uploaded file, but for its takes, which may be thousands and lie beside it.
 
     `created` is in seconds since 1970, `seconds` is the duration of the longest take. Without parts, its files were
@@ -62,15 +64,16 @@ class AnimationRecord(_Record):
     created: float
 
 
-class ViewerRecord(_Record):
-    """What the page plays: the document that describes it, and the blobs of the model and of its strain."""
+class ViewerRecord(Record):
+    """What the page plays: the document that describes it, and the blobs of the model, its strain and its materials."""
 
     document: dict[str, Any]
     model: str
     strain: str | None = None
+    materials: str | None = None
 
 
-class AnalysisRecord(_Record):
+class AnalysisRecord(Record):
     """What was computed from the vertices: the blob of the analysis, and what the page plays."""
 
     key: str
@@ -78,11 +81,11 @@ class AnalysisRecord(_Record):
 
     def blobs(self) -> list[str]:
         """Every blob it points to."""
-        shown = [] if self.viewer is None else [self.viewer.model, self.viewer.strain]
+        shown = [] if self.viewer is None else [self.viewer.model, self.viewer.strain, self.viewer.materials]
         return [key for key in (self.key, *shown) if key is not None]
 
 
-class ExportRecord(_Record):
+class ExportRecord(Record):
     """A file made of a result by a job, which `token` names: pending without a key or a problem.
 
     `created` is in seconds since 1970.
@@ -100,7 +103,35 @@ class ExportRecord(_Record):
         return self.key is None and self.problem is None
 
 
-class RevisionRecord(_Record):
+class DeliveryRecord(Record):
+    """A call to be made because a segmentation is over: where to, of what, and how often it failed so far.
+
+    It holds ids and no names. `finished` is in seconds since 1970.
+    """
+
+    id: str
+    owner: str
+    url: str
+    segmentation: str
+    animation: str
+    status: Status
+    problem: dict[str, Any] | None = None
+    finished: float
+    failures: int = 0
+
+
+class UploadRecord(Record):
+    """An upload that is not whole yet, or the animation that it has become. `expires` is in seconds since 1970."""
+
+    id: str
+    owner: str
+    name: str
+    length: int
+    expires: float
+    animation: str = ""
+
+
+class RevisionRecord(Record):
     """A revision of a result, but for its segments, which may be many. `created` is in seconds since 1970."""
 
     number: int
@@ -108,13 +139,14 @@ class RevisionRecord(_Record):
     note: str = ""
 
 
-class SegmentationRecord(_Record):
+class SegmentationRecord(Record):
     """One way to cut an animation, and how far it is.
 
     queued -> running -> done | failed | cancelled. `token` names the current attempt: whoever holds another
     can no longer write. `problem` is what `CaesuraError.problem()` gave, or one of kind `worker`, which is not
     the file's fault: posting the same again then starts anew. `parameters` are complete, defaults filled in.
     Queued with a time `due`, in seconds since 1970, it gets its place in a queue then: it is tried again after a pause.
+    `started` is when the current attempt began, `finished` when it ended, in seconds since 1970; 0 before that.
     `request` is the id of the request that asked for it first.
     `segments` are the computed ones; `revision` is the number of the newest revision of them, 0 without any.
     """
@@ -136,6 +168,8 @@ class SegmentationRecord(_Record):
     problem: dict[str, Any] | None = None
     created: float
     updated: float
+    started: float = 0.0
+    finished: float = 0.0
     analysis: AnalysisRecord | None = None
     motions: int | None = None
     frames: int | None = None

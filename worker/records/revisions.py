@@ -39,6 +39,7 @@ def add_revision(
             str(record.revision),
             EDITS.dump_json(tuple(edits), exclude_defaults=True),
         )
+        pipe.zadd(redis_keys.edited_key(record.animation), {identifier: now})
 
     after = records.segmentations.change(identifier, change, also)
     return None if after is None else RevisionRecord(number=after.revision, created=now, note=note)
