@@ -13,4 +13,5 @@ parent_watch         a process ends when its parent does
 embedded_redis       a Redis-compatible server where none is given
 private_folder       the data folder, closed to other users
 settings, logs       settings, and log lines
+control_characters   control characters, escaped for terminals and logs
 """

@@ -24,8 +24,8 @@ from caesura.worker.queue.auxiliary_jobs import submit_sweep_if_due
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.queue.orphaned_jobs import OrphanedJobWatch
 from caesura.worker.queue.queues import QUEUES
-from caesura.worker.records.connection import await_writes, connect
-from caesura.worker.records.layout_version import LayoutTooNew, check_layout
+from caesura.worker.records.connection import await_writable, connect
+from caesura.worker.records.storage_version import LayoutTooNew, check_layout
 from caesura.worker.settings import WorkerSettings
 from caesura.worker.store.temporary_files import delete_abandoned_files
 
@@ -53,7 +53,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def run(settings: WorkerSettings, groups: list[list[str]]) -> None:
     """Warm up on one thread, then fork the workers."""
     client = connect(settings.redis_location)
-    await_writes(client)
+    await_writable(client)
     check_layout(client)
     make_private(settings.data_dir)
     _choose_cache(settings)
@@ -79,7 +79,7 @@ def _run_worker(queues: list[str], settings: WorkerSettings) -> None:
     from caesura.worker.tasks import prepare  # noqa: PLC0415  as in `run`
 
     client = connect(settings.redis_location)
-    await_writes(client)
+    await_writable(client)
     worker = CaesuraWorker(queues, client, Jobs.open(settings), prepare)
     worker.prefork()
     worker.work(logging_level="INFO")

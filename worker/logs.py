@@ -14,7 +14,7 @@ from contextvars import ContextVar
 from datetime import UTC, datetime
 from typing import Literal
 
-from caesura.core.control_characters import escape_control_characters
+from caesura.worker.control_characters import escape_control_characters
 
 Form = Literal["text", "json"]
 

@@ -12,8 +12,8 @@ from urllib.parse import parse_qsl
 from caesura.core.revision import apply_revision
 from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.clips.clip_options import ClipOptions
-from caesura.formats.exports.table import EXPORTS, Export, ExportSource
-from caesura.formats.written_file import WrittenFile
+from caesura.formats.exports.export_table import EXPORTS, Export, ExportSource
+from caesura.formats.streamed_file import StreamedFile
 from caesura.worker.process.job_quota import JobQuota
 from caesura.worker.queue.job_problems import INTERNAL_ERROR, problem_of
 from caesura.worker.queue.queues import TimeLimit
@@ -59,7 +59,7 @@ class ResultFileJob:
             scratch = scratch_space(settings.scratch_dir, quota.extend, settings.min_free_bytes)
             return self._keep(export.write(replace(self.source, parts=parts, scratch=scratch)))
 
-    def _keep(self, written: WrittenFile) -> ExportRecord:
+    def _keep(self, written: StreamedFile) -> ExportRecord:
         key = self.blobs.put(written.pieces, "exports", self.settings.min_free_bytes)
         return ExportRecord(key=key, media_type=written.media_type, created=time.time())
 
@@ -83,6 +83,7 @@ def make_result_file(records: Records, blobs: Blobs, settings: WorkerSettings, i
             energy,
             font=lambda: settings.font.read_bytes() if settings.font else None,
             options=ClipOptions.of(options),
+            limits=settings.limits,
         )
         made = ResultFileJob(records, blobs, settings, record, source).make(WRITERS[name])
     except (Exception, TimeLimit) as fault:

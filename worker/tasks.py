@@ -10,6 +10,7 @@ from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.playback.playback_files import make_playback
 from caesura.formats.read import read_animation
 from caesura.worker import result_file_writers
+from caesura.worker.collections import jobs as collection_jobs
 from caesura.worker.process.job_quota import JobQuota
 from caesura.worker.process.thread_count import available_threads
 from caesura.worker.process.warm_up import rehearse_cuts
@@ -64,6 +65,21 @@ def run_export(identifier: str, form: str) -> None:
     result_file_writers.make_result_file(here.jobs.records, here.blobs, here.settings, identifier, form)
 
 
+def run_collect(identifier: str) -> None:
+    """Takes that wait in a collection, measured and labelled."""
+    collection_jobs.run_labelling(worker_context(), identifier)
+
+
+def run_propose(identifier: str, proposal: str) -> None:
+    """What a proposal would change."""
+    collection_jobs.run_proposal(worker_context(), identifier, proposal)
+
+
+def run_search(identifier: str, search: str) -> None:
+    """What is like an example."""
+    collection_jobs.run_search(worker_context(), identifier, search)
+
+
 def run_sweep() -> None:
     """Forget what is kept too long."""
     settings, jobs, blobs = worker_context().settings, worker_context().jobs, worker_context().blobs
@@ -87,6 +103,7 @@ def _analyse(attempt: Attempt) -> None:
             document=shown.document,
             model=blobs.put(shown.model, "viewer"),
             strain=None if shown.strain is None else blobs.put(shown.strain, "viewer"),
+            materials=None if shown.materials is None else blobs.put(shown.materials, "viewer"),
         )
     made = AnalysisRecord(key=blobs.put(analysis.to_bytes(), "analyses"), viewer=viewer)
     kept = _store_analysis(attempt, blobs, digest, made)

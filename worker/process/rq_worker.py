@@ -20,6 +20,7 @@ from rq.serializers import JSONSerializer
 from caesura.worker.process.job_quota import resident_bytes
 from caesura.worker.process.work_horse import WorkHorse
 from caesura.worker.process.worker_registry import IDLE_SECONDS, record_heartbeat
+from caesura.worker.queue.collection_jobs import fail_collection_job
 from caesura.worker.queue.job_problems import KILLED, OUT_OF_MEMORY, OUT_OF_TIME
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.queue.queues import TASKS, JobTimer, TaskJob, rq_queue
@@ -34,6 +35,7 @@ JOBS_PER_WORK_HORSE = 200
 KEPT_BYTES = 256 * 2**20
 """A horse that has grown by more ends, so that its memory goes back."""
 KEPT_TASKS = frozenset({TASKS["analyse"], TASKS["cut"]})
+COLLECTION_TASKS = ("collect", "propose", "search")
 
 
 class CaesuraWorker(Worker):
@@ -159,6 +161,9 @@ class CaesuraWorker(Worker):
         if job.func_name == TASKS["export"] and not self._handing_back:
             identifier, form = job.args
             self._jobs.records.exports.write(identifier, form, ExportRecord(problem=problem, created=time.time()))
+        for task in COLLECTION_TASKS:
+            if job.func_name == TASKS[task] and not self._handing_back:
+                fail_collection_job(self._jobs, task, job.args, problem)
         if job.func_name not in KEPT_TASKS:
             return  # not an attempt
         identifier, token = job.args

@@ -24,6 +24,8 @@ from caesura.formats.read import read_animation
 
 FRAMES = 240
 RATE = 30.0
+SLOW = {"haca", "genetic"}
+"""The loops of the first are those of aca, run thousands of times; the second has none that are compiled."""
 
 
 _rehearsed_analyses: list[Analysis] = []
@@ -44,7 +46,7 @@ def warm_up() -> None:
     with threadpool_limits(1):
         analysis = analyse(animation, parameters, threads=1)
         _rehearsed_analyses.append(analysis)
-        for name in filter("haca".__ne__, METHODS):  # its loops are those of aca, run thousands of times
+        for name in (name for name in METHODS if name not in SLOW):
             cut(analysis, parameters.model_copy(update={"method": name}))
 
 

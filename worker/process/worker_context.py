@@ -1,5 +1,6 @@
 """Settings, queue, records and store of a job. They are opened after the fork, for a store has threads."""
 
+import tempfile
 from dataclasses import dataclass
 from functools import cache, lru_cache
 
@@ -22,6 +23,7 @@ class WorkerContext:
 def worker_context() -> WorkerContext:
     """The place of this process."""
     settings = WorkerSettings()
+    tempfile.tempdir = str(settings.scratch_dir)  # a reader's copy of its file: elsewhere may be memory
     return WorkerContext(settings, Jobs.open(settings), Blobs.open(settings.store_location, settings.scratch_dir))
 
 

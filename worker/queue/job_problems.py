@@ -8,7 +8,7 @@ from redis.exceptions import RedisError
 from caesura.core.errors import CaesuraError
 from caesura.worker.queue.queues import TimeLimit
 from caesura.worker.store.blobs import BlobMissing
-from caesura.worker.store.disk_space import FULL, storage_full
+from caesura.worker.store.disk_space import FULL, storage_full_error
 
 INFRASTRUCTURE = (OSError, RedisError, StoreError)
 
@@ -50,7 +50,7 @@ def problem_of(fault: BaseException) -> dict[str, Any]:
     if isinstance(fault, CaesuraError):
         return fault.problem()
     if isinstance(fault, OSError) and fault.errno in FULL:
-        return storage_full().problem()
+        return storage_full_error().problem()
     if isinstance(fault, INFRASTRUCTURE):
         return UNAVAILABLE
     known = {BlobMissing: GONE, MemoryError: OUT_OF_MEMORY, TimeLimit: OUT_OF_TIME}

@@ -40,6 +40,7 @@ class Jobs:
         self.records = Records(client)
         self.queues = Queues(client, max_queued)
         self.job_seconds = job_seconds
+        self.records.segmentations.follow = self._follow
         self._attempts = attempts
 
     @classmethod
@@ -150,6 +151,14 @@ class Jobs:
             args = [record.id, record.token]
             self.queues.put(record.queue, record.queue, args, record.token, self.job_seconds, pipe)
             pipe.zadd(redis_keys.LAST_USED_KEY, {record.animation: time.time()}, xx=True)
+
+    def _follow(self, pipe: Pipeline, follower: str) -> None:
+        """Have what waited for a segmentation go on: a collection, or a search in one with the token of its job."""
+        collection, *search = follower.split(" ")
+        if search:
+            self.queues.put("cut", "search", [collection, search[0]], search[1], self.job_seconds, pipe)
+        else:
+            self.queues.put("analyse", "collect", [collection], content_ids.random_token(), self.job_seconds, pipe)
 
     def _kept(self, record: SegmentationRecord) -> SegmentationRecord:
         return self.records.segmentations.one(record.id) or self.submit(record)

@@ -29,7 +29,7 @@ class OrphanedJobWatch:
         return sum(self._jobs.retry(missing[token], token, LOST) is not None for token in lost)
 
 
-def recover_orphaned_jobs(jobs: Jobs) -> int:
+def retry_jobs_after_restart(jobs: Jobs) -> int:
     """Try again all that an embedded server held when it ended, and answer how many that are.
 
     No worker can be alive at its start: whatever was running is lost, and every pause is over.

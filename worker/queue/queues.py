@@ -5,6 +5,7 @@ cut      what takes milliseconds: another cut of a stored analysis, files made o
 """
 
 import logging
+import signal
 from typing import Any
 
 from redis import Redis
@@ -21,9 +22,14 @@ from caesura.worker.records.record_types import Queue, SegmentationRecord
 log = logging.getLogger(__name__)
 
 QUEUES: tuple[Queue, ...] = ("analyse", "cut")
-TASKS = {name: f"caesura.worker.tasks.run_{name}" for name in (*QUEUES, "alternatives", "export", "sweep")}
+TASKS = {
+    name: f"caesura.worker.tasks.run_{name}"
+    for name in (*QUEUES, "alternatives", "export", "sweep", "collect", "propose", "search")
+}
 RESULT_SECONDS = 60  # how long RQ remembers what our record knows anyway
 FAILURE_SECONDS = 24 * 3600
+REMINDER_SECONDS = 5.0
+"""Until a time limit that was swallowed is raised again: time enough to write down that it was reached."""
 
 
 class TimeLimit(BaseException):
@@ -34,11 +40,19 @@ class TimeLimit(BaseException):
 
 
 class JobTimer(UnixSignalDeathPenalty):
-    """RQ's timer, which raises `TimeLimit` where the time of a job is up. The system counts it, whatever clocks say."""
+    """RQ's timer, which raises `TimeLimit` where the time of a job is up. The system counts it, whatever clocks say.
+
+    It raises it again and again: a library whose handlers catch everything cannot keep it to itself.
+    """
 
     def __init__(self, timeout: float, exception: type[BaseException] = TimeLimit, **others: Any) -> None:
         raised = TimeLimit if exception is JobTimeoutException else exception
         super().__init__(timeout, raised, **others)  # type: ignore[no-untyped-call]
+
+    def setup_death_penalty(self) -> None:
+        """Start the timer."""
+        super().setup_death_penalty()  # type: ignore[no-untyped-call]
+        signal.setitimer(signal.ITIMER_REAL, self._timeout, REMINDER_SECONDS)
 
 
 class TaskJob(Job):

@@ -4,11 +4,14 @@ On a full disk Redis takes no writes, not even deletions. So all blobs of what i
 that Redis then finds, and the records follow.
 """
 
-from collections.abc import Iterator
+import time
+from collections.abc import Iterable, Iterator
 
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.records import Records
-from caesura.worker.records.connection import await_writes
+from caesura.worker.records.collection_types import CollectionRecord, TakeRecord
+from caesura.worker.records.collections import CollectionChange
+from caesura.worker.records.connection import await_writable
 from caesura.worker.records.record_types import AnimationRecord
 from caesura.worker.store.blobs import Blobs
 
@@ -31,18 +34,51 @@ def delete_animation(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> No
     """Delete an upload and everything derived from it, also what is asked for while it is being deleted."""
     _delete_blobs(jobs, blobs, blobs_of_animation(jobs.records, animation))
     while True:
+        for collection in jobs.records.collections.with_animation(animation.id):
+            remove_from_collection(jobs, blobs, collection, animation.id)
         for segmentation in jobs.records.segmentations.of(animation.id):
             delete_segmentation(jobs, blobs, segmentation.id)
-        delete_result_files(jobs, blobs, animation)
+        delete_upload_files(jobs, blobs, animation)
         if jobs.records.animations.delete(animation):
             return
+
+
+def delete_collection(jobs: Jobs, blobs: Blobs, collection: CollectionRecord) -> None:
+    """Delete a collection with what its takes are compared by; the animations stay."""
+    _delete_blobs(jobs, blobs, blobs_of_collection(jobs.records, collection.id))
+    jobs.records.collections.delete(collection)
+
+
+def remove_from_collection(jobs: Jobs, blobs: Blobs, identifier: str, animation: str) -> None:
+    """Take an animation out of a collection, with what it is compared by."""
+    collections = jobs.records.collections
+    removed = collections.takes(identifier, [animation])
+    collections.change(
+        identifier,
+        lambda record: CollectionChange(record.model_copy(update={"updated": time.time()}), removed=(animation,)),
+    )
+    for key in _blobs_of_takes(removed):
+        blobs.delete(key)
+
+
+def blobs_of_collection(records: Records, identifier: str) -> Iterator[str]:
+    """Every blob of a collection: what its takes are compared by, and in."""
+    collection = records.collections.one(identifier)
+    if collection is not None and collection.space:
+        yield collection.space
+    yield from _blobs_of_takes(records.collections.takes(identifier, records.collections.entries(identifier)))
+
+
+def _blobs_of_takes(takes: Iterable[TakeRecord]) -> Iterator[str]:
+    for take in takes:
+        yield from take.numbers.blobs() if take.numbers is not None else ()
 
 
 def _delete_blobs(jobs: Jobs, blobs: Blobs, keys: Iterator[str]) -> None:
     """Delete blobs, and wait until Redis takes writes, which it does at once where its disk was not full."""
     for key in keys:
         blobs.delete(key)
-    await_writes(jobs.redis, WRITES_SECONDS)
+    await_writable(jobs.redis, WRITES_SECONDS)
 
 
 def blobs_of_animation(records: Records, animation: AnimationRecord) -> Iterator[str]:
@@ -60,8 +96,13 @@ def _result_file_blobs(records: Records, identifier: str) -> Iterator[str]:
     yield from (one.key for one in made if one is not None and one.key is not None)
 
 
-def delete_result_files(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
-    """Delete an upload's files, what was computed from them, and copies of them in clips; results stay."""
+def delete_upload_files(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) -> None:
+    """Delete an upload's files, what was computed from them, and copies of them in clips; results stay.
+
+    So do its segments in collections; it is not searched there any more.
+    """
+    for collection in jobs.records.collections.with_animation(animation.id):
+        _forget_numbers(jobs, blobs, collection, animation.id)
     for segmentation in jobs.records.segmentations.of(animation.id):
         for form in jobs.records.exports.forms(segmentation.id):
             if form.partition("?")[0] in RESULT_FILES_WITH_UPLOAD:
@@ -72,6 +113,16 @@ def delete_result_files(jobs: Jobs, blobs: Blobs, animation: AnimationRecord) ->
         jobs.records.analyses.delete(animation.id, digest)
     for part in animation.parts:
         blobs.delete(part.key)
+
+
+def _forget_numbers(jobs: Jobs, blobs: Blobs, identifier: str, animation: str) -> None:
+    collections = jobs.records.collections
+    kept = [take for take in collections.takes(identifier, [animation]) if take.numbers is not None]
+    if kept:
+        put = tuple(take.model_copy(update={"numbers": None}) for take in kept)
+        collections.change(identifier, lambda record: CollectionChange(record, put))
+    for key in _blobs_of_takes(kept):
+        blobs.delete(key)
 
 
 def _delete_all_result_files(jobs: Jobs, blobs: Blobs, identifier: str) -> None:

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from caesura.worker.records import Records, redis_keys
 from caesura.worker.records.connection import decode_names
-from caesura.worker.retention.deletion import blobs_of_animation
+from caesura.worker.retention.deletion import blobs_of_animation, blobs_of_collection
 from caesura.worker.store.blobs import Blobs
 
 
@@ -38,6 +38,8 @@ def _pointers(records: Records) -> Iterator[str]:
         animation = records.animations.one(identifier)
         if animation is not None:
             yield from blobs_of_animation(records, animation)
+    for identifier in records.collections.all():
+        yield from blobs_of_collection(records, identifier)
 
 
 def _store_doubtful(records: Records, doubtful: dict[str, float], sizes: dict[str, int]) -> None:

@@ -12,7 +12,7 @@ from caesura.worker.queue.auxiliary_jobs import SWEEP_SECONDS
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.records import redis_keys
 from caesura.worker.records.record_types import AnimationRecord
-from caesura.worker.retention.deletion import delete_result_files, delete_segmentation
+from caesura.worker.retention.deletion import delete_collection, delete_segmentation, delete_upload_files
 from caesura.worker.retention.orphaned_blobs import delete_orphaned_blobs
 from caesura.worker.store.blobs import Blobs
 
@@ -39,7 +39,8 @@ def sweep(
     doubt_seconds: float = DOUBT_SECONDS,
     now: float | None = None,
 ) -> None:
-    """Forget uploads and analyses unused for `keep_upload` seconds, results `keep_result` seconds old, and orphans.
+    """Forget uploads and analyses unused for `keep_upload` seconds, results and collections that nothing has changed
+    for `keep_result` seconds, and orphans.
 
     What is queued or running keeps its upload. A record goes with the last thing that it is the record of.
     """
@@ -48,17 +49,23 @@ def sweep(
         animation = jobs.records.animations.one(identifier)
         if animation is not None:
             _sweep_animation(jobs, blobs, animation, used < now - keep_upload, now - keep_result)
+    for identifier in jobs.records.collections.all():
+        collection = jobs.records.collections.one(identifier)
+        if collection is not None and collection.updated < now - keep_result:
+            delete_collection(jobs, blobs, collection)
     delete_orphaned_blobs(jobs.records, blobs, doubt_seconds)
 
 
 def _sweep_animation(jobs: Jobs, blobs: Blobs, animation: AnimationRecord, unused: bool, oldest: float) -> None:
     cuts = jobs.records.segmentations.of(animation.id)
+    for cut in cuts:
+        jobs.records.segmentations.index(cut)
     outdated = [cut for cut in cuts if not cut.live and cut.updated < oldest]
     for cut in outdated:
         delete_segmentation(jobs, blobs, cut.id)
     if not unused or any(cut.live for cut in cuts):
         return
-    delete_result_files(jobs, blobs, animation)
+    delete_upload_files(jobs, blobs, animation)
     if not jobs.records.animations.delete(animation):
         jobs.records.animations.strip(animation)
 

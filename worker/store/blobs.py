@@ -25,7 +25,7 @@ from caesura.worker.store.temporary_files import file_path, temporary_file, writ
 if TYPE_CHECKING:  # a type alone: it is not there at run time
     from obstore.store import RetryConfig
 
-Kind = Literal["uploads", "analyses", "viewer", "exports"]
+Kind = Literal["uploads", "analyses", "viewer", "exports", "collections"]
 
 KEY = re.compile(r"[a-z]+/[0-9a-f]{32}")
 CHUNK_BYTES = 1 << 17

@@ -19,10 +19,10 @@ class StorageFull(CaesuraError):
 def check_disk_space(folder: Path, coming: int, stays_free: int) -> None:
     """Raises `StorageFull` where `coming` more bytes in a folder would leave fewer than `stays_free` of its disk."""
     if shutil.disk_usage(folder).free - coming < stays_free:
-        raise storage_full(setting="CAESURA_MIN_FREE_BYTES")
+        raise storage_full_error(setting="CAESURA_MIN_FREE_BYTES")
 
 
-def storage_full(**where: str) -> StorageFull:
+def storage_full_error(**where: str) -> StorageFull:
     """The refusal, for a disk that is full already too."""
     detail = "The disk of the service is full. Nothing is stored; tell the operator, or try again later."
     return StorageFull("storage-full", detail, **where)
