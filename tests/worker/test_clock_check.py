@@ -44,7 +44,7 @@ def test_two_hours_ahead_fail_no_running_job(idle, take, checkout, tmp_path):
     record = idle.submit(idle.upload(take))
     offset = tmp_path / "offset"
     offset.write_text("0")
-    path = f"{checkout / 'benchmarks' / 'jumping_clock'}:{checkout}"
+    path = f"{checkout / 'benchmarks' / 'chaos' / 'jumping_clock'}:{checkout}"
     environment = {**os.environ, **idle.settings.environment(), "PYTHONPATH": path, "JUMPING_CLOCK": str(offset)}
     subprocess.run([sys.executable, "-c", WORKER], env=environment, check=True, timeout=60)
     assert offset.read_text() == "7200"

@@ -4,9 +4,9 @@ import time
 
 import pytest
 
-from benchmarks.chaos_disk import small_disk
+from benchmarks.chaos.disk import small_disk
 from caesura.worker.embedded_redis.server import EmbeddedRedis
-from caesura.worker.records.connection import await_writes
+from caesura.worker.records.connection import await_writable
 from caesura.worker.settings import WorkerSettings
 from tests.conftest import unavailable
 from tests.installation import Installation, Pool, descendants
@@ -48,5 +48,5 @@ def test_workers_wait_while_redis_takes_no_writes(place, disk, take):
         time.sleep(0.05)
     disk.empty()
     assert len(seen) <= 4  # two, and one after each
-    await_writes(place.redis, 20.0)
+    await_writable(place.redis, 20.0)
     assert place.ended(place.submit(place.upload(take)).id).status == "done"

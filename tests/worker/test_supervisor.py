@@ -106,7 +106,7 @@ def test_children_that_die_are_started_again(start, take):
     """Without its Redis, its web process or its workers, the service comes back, and a new take is segmented."""
     serving = start()
     done = serving.place.ended(serving.place.submit(serving.place.upload(take)).id)
-    for word in ("valkey-server", "caesura.service.process.web", "-m caesura.worker"):
+    for word in ("valkey-server", "caesura.service.process.web_process", "-m caesura.worker"):
         os.kill(serving.named(word), signal.SIGKILL)
     deadline = time.monotonic() + 20
     while time.monotonic() < deadline:

@@ -1,5 +1,6 @@
 """However the work ends, the record says so, and only what another attempt may mend is tried again."""
 
+import contextlib
 import time
 
 import pytest
@@ -9,6 +10,7 @@ from redis.exceptions import OutOfMemoryError
 from rq.timeouts import JobTimeoutException
 
 from caesura.core.errors import InvalidModel, error_from_problem
+from caesura.worker.queue import queues
 from caesura.worker.queue.attempt import run_attempt
 from caesura.worker.queue.queues import JobTimer, TimeLimit
 
@@ -62,6 +64,22 @@ def test_no_handler_takes_the_time_limit_for_a_fault_of_the_file(idle, queued):
         run_attempt(idle.jobs, queued.id, queued.token, work)
     failed = idle.records.segmentations.one(queued.id)
     assert (failed.status, failed.problem["code"], failed.settled) == ("failed", "out-of-time", False)
+
+
+def test_a_library_that_swallows_the_time_limit_gets_it_again(idle, queued, monkeypatch):
+    """A bare `except` in somebody else's reader catches it once, and the job would go on without a limit."""
+    monkeypatch.setattr(queues, "REMINDER_SECONDS", 0.3)
+
+    def work(_):
+        with contextlib.suppress(BaseException):
+            time.sleep(30)
+        time.sleep(30)
+
+    began = time.monotonic()
+    with JobTimer(1, JobTimeoutException):
+        run_attempt(idle.jobs, queued.id, queued.token, work)
+    assert idle.records.segmentations.one(queued.id).problem["code"] == "out-of-time"
+    assert time.monotonic() - began < 10
 
 
 def test_the_time_limit_while_another_end_is_written_is_told(idle, queued, monkeypatch):

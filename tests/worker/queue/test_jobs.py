@@ -77,9 +77,22 @@ def test_a_deleted_segmentation_leaves_nothing(idle, take):
 
 def horse(pool):
     """The process that does the running job: pool, worker, work-horse. Others stand ready beside it."""
-    forks = [pid for depth, pid in descendants(pool.process.pid) if depth == 2]
-    (found,) = [pid for pid in forks if Path(f"/proc/{pid}/comm").read_text().strip() == WORKING]
-    return found
+    deadline = time.monotonic() + 10
+    while time.monotonic() < deadline:
+        forks = [pid for depth, pid in descendants(pool.process.pid) if depth == 2]
+        found = [pid for pid in forks if comm(pid) == WORKING]
+        if len(found) == 1:  # one that was killed may still be on its way out
+            return found[0]
+        time.sleep(0.02)
+    raise TimeoutError(f"{len(found)} jobs run")
+
+
+def comm(pid):
+    """The name of a process, empty once it is gone."""
+    try:
+        return Path(f"/proc/{pid}/comm").read_text().strip()
+    except OSError:
+        return ""
 
 
 def started(place):

@@ -4,7 +4,7 @@ import time
 
 from caesura.worker.queue.job_problems import LOST
 from caesura.worker.queue.jobs import retry_delay_seconds
-from caesura.worker.queue.orphaned_jobs import OrphanedJobWatch, recover_orphaned_jobs
+from caesura.worker.queue.orphaned_jobs import OrphanedJobWatch, retry_jobs_after_restart
 from caesura.worker.records import redis_keys
 from caesura.worker.records.attempts import LEASE_SECONDS
 
@@ -77,7 +77,7 @@ def test_when_a_server_starts_whatever_ran_is_lost_at_once(idle, take):
     running, waiting, pausing = (idle.submit(idle.upload(take)) for _ in range(3))
     idle.records.attempts.begin(running.id, running.token)
     idle.jobs.retry(pausing.id, pausing.token, LOST, pause=True)
-    assert recover_orphaned_jobs(idle.jobs) == 1
+    assert retry_jobs_after_restart(idle.jobs) == 1
     after = [idle.records.segmentations.one(record.id) for record in (running, waiting, pausing)]
     assert [(record.status, record.attempt) for record in after] == [("queued", 2), ("queued", 1), ("queued", 2)]
     assert after[1].token == waiting.token

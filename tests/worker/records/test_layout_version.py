@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from caesura.worker.records import redis_keys
-from caesura.worker.records.layout_version import LAYOUT, LayoutTooNew, check_layout
+from caesura.worker.records.storage_version import LAYOUT, LayoutTooNew, check_layout
 
 
 def test_a_new_redis_gets_our_layout(idle):

@@ -4,6 +4,8 @@ import pytest
 
 from caesura.worker.queue.auxiliary_jobs import submit_sweep_if_due
 from caesura.worker.records import record_types, redis_keys
+from caesura.worker.records.collection_types import CollectionRecord, TakeNumbers, TakeRecord
+from caesura.worker.records.collections import CollectionChange
 from caesura.worker.retention.sweep import sweep
 
 LONG = 1e9
@@ -62,6 +64,40 @@ def test_an_old_result_goes_and_the_record_with_the_last_one(place, done):
     sweep(place.jobs, place.blobs, 3600, LONG / 1e3)
     assert files(place, *done) == []
     assert not [key for key in place.redis.scan_iter() if animation.id.encode() in key or cut.id.encode() in key]
+
+
+def collected(place, animation, cut, identifier="c" * 24, updated=1e9):
+    """A collection of the take, which was changed last at `updated`."""
+    key = place.blobs.put(b"numbers", "collections")
+    record = CollectionRecord(id=identifier, owner="", name="all", created=updated, updated=updated)
+    place.records.collections.create(record)
+    take = TakeRecord(
+        animation=animation.id, segmentation=cut.id, name="take", added=1.0, status="labelled",
+        numbers=TakeNumbers(poses=key),
+    )  # fmt: skip
+    place.records.collections.change(identifier, lambda kept: CollectionChange(kept, (take,)))
+    return place.settings.data_dir / "blobs" / key
+
+
+def test_an_unused_upload_takes_its_numbers_out_of_collections(place, done):
+    """Its segments stay there."""
+    file = collected(place, *done, updated=2e12)
+    place.redis.zadd(redis_keys.LAST_USED_KEY, {done[0].id: 0})
+    sweep(place.jobs, place.blobs, 3600, LONG)
+    assert not file.exists()
+    (take,) = place.records.collections.takes("c" * 24, [done[0].id])
+    assert (take.status, take.numbers) == ("labelled", None)
+
+
+def test_a_collection_that_nobody_changes_goes_with_all_that_it_holds(place, done):
+    """And one that is in use keeps its files, whatever the sweep finds."""
+    old, fresh = collected(place, *done), collected(place, *done, identifier="d" * 24, updated=2e12)
+    sweep(place.jobs, place.blobs, LONG, LONG / 10, doubt_seconds=0)
+    sweep(place.jobs, place.blobs, LONG, LONG / 10, doubt_seconds=0)
+    assert (old.exists(), fresh.exists()) == (False, True)
+    assert place.records.collections.one("c" * 24) is None
+    assert place.records.collections.with_animation(done[0].id) == ["d" * 24]
+    assert not [key for key in place.redis.scan_iter() if b"c" * 24 in key]
 
 
 def test_a_sweep_is_queued_once_an_hour(idle):
