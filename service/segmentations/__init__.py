@@ -2,6 +2,6 @@
 
 segmentation_request  the animation, name and parameters of a request
 submission            finds or queues the segmentation of a request
-status_response       the response with a status
+document_response     the response with a document, such as a status
 event_stream          status changes as server-sent events
 """

@@ -7,14 +7,14 @@ from pydantic import BaseModel
 
 from caesura.service.backend import Backend
 from caesura.service.http.prefer_header import preferred_wait_seconds
-from caesura.service.problems.status_table import problem_response
+from caesura.service.problems.problem_response import problem_response
 from caesura.service.response_documents import StatusDocument
 from caesura.worker.records.record_types import SegmentationRecord
 
 ASK_AGAIN = {"Retry-After": "1"}
 
 
-def status_response(document: BaseModel, status: int = 200, headers: Mapping[str, str] | None = None) -> Response:
+def document_response(document: BaseModel, status: int = 200, headers: Mapping[str, str] | None = None) -> Response:
     """A document as JSON."""
     text = document.model_dump_json()
     return Response(text, status, {"Cache-Control": "no-store", **(headers or {})}, "application/json")
@@ -34,9 +34,9 @@ async def submission_response(backend: Backend, request: Request, record: Segmen
     record = await backend.wait_until_settled(record, preferred_wait_seconds(request))
     headers = {"Location": f"/v1/segmentations/{record.id}", **preference_applied(request)}
     if record.live:
-        return status_response(StatusDocument.of(record, await backend.position(record)), 202, headers | ASK_AGAIN)
+        return document_response(StatusDocument.of(record, await backend.position(record)), 202, headers | ASK_AGAIN)
     if record.status == "done":
-        return status_response(StatusDocument.of(record), 200, headers)
+        return document_response(StatusDocument.of(record), 200, headers)
     return problem_response(problem_of(record), headers)
 
 

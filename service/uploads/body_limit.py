@@ -46,13 +46,20 @@ class BodyLimit:
 
 
 def _is_upload(path: str, headers: Headers) -> bool:
-    return path == "/v1/animations" or (path == "/v1/segmentations" and not is_json(headers))
+    if path in {"/v1/segmentations", "/v1/batches"}:
+        return not is_json(headers)
+    return path == "/v1/animations" or path.startswith("/v1/uploads/")
 
 
 def _too_large(upload: bool, limit: int, actual: int) -> BodyTooLarge:
-    if not upload:
-        detail = f"The JSON is longer than {limit} bytes. Send a file without the type application/json."
-        return BodyTooLarge("json-too-long", detail, limit=limit, actual=actual)
+    if upload:
+        return upload_too_large(limit, actual)
+    detail = f"The JSON is longer than {limit} bytes. Send a file without the type application/json."
+    return BodyTooLarge("json-too-long", detail, limit=limit, actual=actual)
+
+
+def upload_too_large(limit: int, actual: int) -> BodyTooLarge:
+    """The refusal of a file of more bytes than the service takes, whichever way it comes."""
     detail = (
         f"The upload is larger than the {limit} bytes this service takes. Send a smaller file, or ask its operator to "
         "raise CAESURA_MAX_UPLOAD_BYTES."

@@ -15,7 +15,7 @@ from redis import Redis
 from redis.exceptions import RedisError
 
 from caesura.service.backend import Backend, BackendDependency
-from caesura.service.problems.status_table import Refusal
+from caesura.service.problems.problem_response import RequestProblem
 from caesura.worker.process.worker_registry import unserved_queues
 from caesura.worker.records.connection import refuses_writes
 
@@ -37,12 +37,12 @@ class Capacity:
         """What is full or does not answer, as a sentence; empty while there is capacity."""
         now = time.monotonic()
         if now - self._seen >= BELIEVED_SECONDS:
-            self._shortage = await measure_capacity(backend)
+            self._shortage = await find_shortage(backend)
             self._seen = now
         return self._shortage
 
 
-async def measure_capacity(backend: Backend) -> str:
+async def find_shortage(backend: Backend) -> str:
     """Measure the capacity now; an answer that takes too long counts as none."""
     with move_on_after(PATIENCE_SECONDS):
         return await to_thread.run_sync(_find_shortage, backend, abandon_on_cancel=True)
@@ -90,4 +90,4 @@ async def require_capacity(request: Request, backend: BackendDependency) -> None
     capacity: Capacity = request.app.state.capacity
     shortage = await capacity.shortage(backend)
     if shortage:
-        raise Refusal("not-ready", f"{shortage} Nothing is stored; try again later.")
+        raise RequestProblem("not-ready", f"{shortage} Nothing is stored; try again later.")

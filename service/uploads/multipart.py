@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NoReturn
 from python_multipart.exceptions import FormParserError
 from python_multipart.multipart import MultipartParser, parse_options_header
 
-from caesura.service.problems.status_table import Refusal
+from caesura.service.problems.problem_response import RequestProblem
 from caesura.service.uploads.spool import Part, SpoolFile
 
 if TYPE_CHECKING:  # the parser defines it for type checkers alone
@@ -18,6 +18,9 @@ if TYPE_CHECKING:  # the parser defines it for type checkers alone
 
 MAX_PARTS = 64
 MAX_FIELD_BYTES = 4096
+
+FILE_FIELD = "file"
+"""A part of this name is a file, whether it has a filename or not."""
 
 OVERHEAD_BYTES = MAX_PARTS * 64 * 1024
 """What boundaries and part headers may add to the files themselves: the parser allows less than this a part."""
@@ -84,12 +87,12 @@ class MultipartBody:
     def _part_begins(self) -> None:
         self._parts += 1
         if self._parts > MAX_PARTS:
-            raise Refusal("too-many-parts", f"The form has more than {MAX_PARTS} parts. Send fewer files.")
+            raise RequestProblem("too-many-parts", f"The form has more than {MAX_PARTS} parts. Send fewer files.")
         _, options = parse_options_header(self._disposition)
         self._disposition = b""
         name = options.get(b"name", b"").decode("utf-8", "replace")
-        if b"filename" in options:
-            file = SpoolFile(self._folder, options[b"filename"].decode("utf-8", "replace"))
+        if b"filename" in options or name == FILE_FIELD:
+            file = SpoolFile(self._folder, options.get(b"filename", b"").decode("utf-8", "replace"))
             self._files.append(file)
             self._target = file
         else:
@@ -102,11 +105,15 @@ class MultipartBody:
             return
         self._target += piece
         if len(self._target) > MAX_FIELD_BYTES:
-            raise Refusal("field-too-long", "A form field is too long. A file needs a filename: curl -F file=@FILE.")
+            raise RequestProblem(
+                "field-too-long", "A form field is too long. A file needs a filename: curl -F file=@FILE."
+            )
 
     def _form_ends(self) -> None:
         self._ended = True
 
 
 def _malformed(why: object) -> NoReturn:
-    raise Refusal("malformed-multipart", f"The multipart form cannot be read: {why}. Send it again, whole.") from None
+    raise RequestProblem(
+        "malformed-multipart", f"The multipart form cannot be read: {why}. Send it again, whole."
+    ) from None

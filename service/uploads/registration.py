@@ -6,11 +6,13 @@ from collections.abc import Iterable
 from redis.exceptions import ResponseError
 
 from caesura.core.errors import UnsupportedMedia
-from caesura.formats.file_header import Header, read_header
+from caesura.formats.bundle.companion_file import find_companion
 from caesura.formats.file_type import SIGNATURE_BYTES, detect_file_type
+from caesura.formats.input_formats import INPUT_FORMATS
+from caesura.formats.upload_summary import Header, read_header
 from caesura.service.backend import Backend
 from caesura.service.http.file_name import plain_name
-from caesura.service.problems.status_table import Refusal
+from caesura.service.problems.problem_response import RequestProblem
 from caesura.service.uploads.spool import Part
 from caesura.worker.records import content_ids, record_types
 from caesura.worker.records.record_types import AnimationRecord, TakeSummary
@@ -19,12 +21,14 @@ from caesura.worker.records.record_types import AnimationRecord, TakeSummary
 def register_upload(backend: Backend, owner: str, parts: tuple[Part, ...], name: str) -> tuple[AnimationRecord, bool]:
     """The animation these files are, and whether it is new. Blocks: run it on a thread.
 
-    The same files again are the same animation, whatever they are called now; one of which the store has lost a file is
-    stored again. Raises what the header's reader
-    raises; nothing is kept then.
+    The same files again are the same animation, which from then on is called as they are now; one of which the store
+    has lost a file is stored again. Raises what the header's reader raises; nothing is kept then.
     """
     main = _find_main_part(backend, parts)
     header = _header(backend, main)
+    known = INPUT_FORMATS[header.format]
+    if known.companion:
+        find_companion(known, main.name, [part.name for part in parts if part is not main])
     described = [(part.name, part.bytes, part.sha256) for part in parts]
     identifier = content_ids.animation_id(backend.secret, owner, described)
     kept = backend.jobs.records.animations.one(identifier)
@@ -33,7 +37,10 @@ def register_upload(backend: Backend, owner: str, parts: tuple[Part, ...], name:
         backend.jobs.records.animations.strip(kept)
     elif kept is not None and kept.parts:
         backend.jobs.records.animations.touch(identifier)
-        return kept, False
+        called = plain_name(name or main.name) or kept.name
+        if called != kept.name:
+            backend.jobs.records.rename_animation(identifier, called)
+        return kept.model_copy(update={"name": called}), False
     takes = tuple(TakeSummary.model_validate(take, from_attributes=True) for take in header.takes)
     record = AnimationRecord(
         id=identifier,
@@ -69,18 +76,18 @@ def _discard(backend: Backend, record: AnimationRecord) -> None:
 def _find_main_part(backend: Backend, parts: tuple[Part, ...]) -> Part:
     """The file that holds the animation; the others are what it refers to, by name."""
     if not parts:
-        raise Refusal("no-file", "The form holds no file. Send one with a filename, as curl -F file=@FILE does.")
+        raise RequestProblem("no-file", "The form holds no file. Send one with a filename, as curl -F file=@FILE does.")
     if len(parts) == 1:
         return parts[0]
     twice = _find_repeated_name(part.name for part in parts)
     if twice is not None:
-        raise Refusal("duplicate-part", f"Two files of the form are called {twice!r}. Send each once.")
+        raise RequestProblem("duplicate-part", f"Two files of the form are called {twice!r}. Send each once.")
     readable = [part for part in parts if _is_readable(part)]
     if len(readable) == 2 and (motion := _find_motion_part(backend, readable)):
         return motion
     if len(readable) != 1:
         names = ", ".join(part.name for part in readable) or "none"
-        raise Refusal(
+        raise RequestProblem(
             "one-animation", f"An upload is one animation with the files it refers to; readable here: {names}."
         )
     return readable[0]

@@ -13,7 +13,8 @@ from anyio import CancelScope, move_on_after, to_thread
 from fastapi import Request
 
 from caesura.service.backend import Backend
-from caesura.service.problems.status_table import Refusal
+from caesura.service.http.file_name import disposition_name
+from caesura.service.problems.problem_response import RequestProblem
 from caesura.service.uploads.multipart import MultipartBody, multipart_boundary
 from caesura.service.uploads.spool import Part, SpoolFile
 from caesura.worker.store.disk_space import check_disk_space
@@ -49,6 +50,10 @@ class RawBody:
     def __init__(self, folder: Path, name: str) -> None:
         self._file = SpoolFile(folder, name)
 
+    def call(self, name: str) -> None:
+        """Give it a name, where it has none yet."""
+        self._file.name = self._file.name or name
+
     def feed(self, block: bytes) -> None:
         """The next bytes of the file."""
         self._file.write(block)
@@ -66,13 +71,14 @@ class RawBody:
 async def receive_upload(request: Request, backend: Backend) -> AsyncIterator[Upload]:
     """The upload of `request`, in the spool until the block ends; what is to stay must have been moved by then.
 
-    Raises `StorageFull` where what is still to come would fill the disk, for others may be sending too, and `Refusal`
-    ("not-ready") where the process is told to stop before all has come.
+    Raises `StorageFull` where what is still to come would fill the disk, for others may be sending too, and
+    `RequestProblem` ("not-ready") where the process is told to stop before all has come.
     """
     settings, folder = backend.settings, backend.spool
     mark = multipart_boundary(request.headers.get("content-type", ""))
+    called = request.query_params.get("name") or disposition_name(request.headers.get("content-disposition", ""))
     body: UploadBody = await to_thread.run_sync(
-        lambda: MultipartBody(folder, mark) if mark else RawBody(folder, request.query_params.get("name", ""))
+        lambda: MultipartBody(folder, mark) if mark else RawBody(folder, called)
     )
     try:
         left = int(request.headers.get("content-length", 0))
@@ -108,4 +114,4 @@ async def _refuse_rest(request: Request) -> NoReturn:
     with move_on_after(FAREWELL_SECONDS):
         async for _ in request.stream():
             pass
-    raise Refusal("not-ready", "The service is stopping. Nothing is stored; send it again in a moment.")
+    raise RequestProblem("not-ready", "The service is stopping. Nothing is stored; send it again in a moment.")
