@@ -1,10 +1,12 @@
 """The documents that the API answers with: their fields, made from the records."""
 
+from datetime import UTC, datetime
 from typing import Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field
 
 from caesura.core.segmentation_document import Segment
+from caesura.worker.queue.overall_progress import overall_fraction, remaining_seconds
 from caesura.worker.records.record_types import AnimationRecord, RevisionRecord, SegmentationRecord, Status, TakeSummary
 
 
@@ -23,7 +25,8 @@ class AnimationSummary(_Answer):
     duration_seconds: float | None = Field(description="of the longest take")
     vertices: int | None
     triangles: int | None
-    created: float = Field(description="seconds since 1970")
+    created: datetime = Field(description="when it was made, by RFC 3339")
+    edited: str | None = Field(None, description="the segmentation that a person edited last")
     links: dict[str, str]
 
     @classmethod
@@ -39,7 +42,7 @@ class AnimationSummary(_Answer):
             duration_seconds=record.seconds,
             vertices=record.vertices,
             triangles=record.triangles,
-            created=record.created,
+            created=_moment(record.created),
             links={"self": here, "file": f"{here}/file", "segmentations": f"/v1/segmentations?animation={record.id}"},
             **more,
         )
@@ -59,10 +62,22 @@ class AnimationPage(_Answer):
 
 
 class StageProgress(_Answer):
-    """What is being done, and how much of that is done, 0 to 1."""
+    """What is being done, how much of that and how much of all is done, 0 to 1, and how long the rest may take."""
 
     stage: str
-    fraction: float
+    fraction: float = Field(description="of this stage")
+    overall: float = Field(0.0, description="of all stages")
+    remaining_seconds: float | None = Field(None, description="an estimate; null where too little is done for one")
+
+    @classmethod
+    def of(cls, record: SegmentationRecord) -> Self:
+        """The progress of a record."""
+        return cls(
+            stage=record.stage,
+            fraction=record.fraction,
+            overall=round(overall_fraction(record), 4),
+            remaining_seconds=remaining_seconds(record),
+        )
 
 
 class StatusDocument(_Answer):
@@ -79,6 +94,10 @@ class StatusDocument(_Answer):
     frames: int | None
     segments: tuple[Segment, ...] | None = Field(description="null in a list")
     revision: int = Field(0, description="the newest revision; 0 while nobody has edited the result")
+    parameters: dict[str, Any] = Field(description="what was asked for, with the defaults filled in")
+    created: datetime = Field(description="when it was made, by RFC 3339")
+    started: datetime | None = Field(None, description="when a worker began; null while it is queued")
+    finished: datetime | None = Field(None, description="when it was done, failed or was cancelled; null before")
     links: dict[str, str]
 
     @classmethod
@@ -91,12 +110,16 @@ class StatusDocument(_Answer):
             name=record.name,
             status=record.status,
             position=position,
-            progress=StageProgress(stage=record.stage, fraction=record.fraction),
+            progress=StageProgress.of(record),
             problem=record.problem,
             motions=record.motions if done else None,
             frames=record.frames if done else None,
             segments=record.segments if done else None,
             revision=record.revision,
+            parameters=record.parameters,
+            created=_moment(record.created),
+            started=_moment(record.started) if record.started else None,
+            finished=_moment(record.finished) if record.finished else None,
             links=_links(record.id),
         )
 
@@ -106,6 +129,11 @@ class SegmentationPage(_Answer):
 
     segmentations: tuple[StatusDocument, ...]
     next: str | None = None
+
+
+def _moment(seconds: float) -> datetime:
+    """A time in seconds since 1970, in UTC."""
+    return datetime.fromtimestamp(seconds, UTC)
 
 
 def _links(identifier: str) -> dict[str, str]:
@@ -118,7 +146,7 @@ class RevisionEntry(_Answer):
     """One revision of a result, but for its segments; revision 0 is the result as computed."""
 
     revision: int
-    created: float = Field(description="seconds since 1970")
+    created: datetime = Field(description="when it was made, by RFC 3339")
     note: str
     links: dict[str, str]
 
@@ -128,7 +156,7 @@ class RevisionEntry(_Answer):
         here, query = f"/v1/segmentations/{identifier}", f"?revision={record.number}"
         links = {name: f"{here}/{name}{query}" for name in ("result", "clips", "keyframes")}
         links = {"self": f"{here}/revisions/{record.number}", **links, "plot": f"{here}/plot.svg{query}"}
-        return cls(revision=record.number, created=record.created, note=record.note, links=links, **more)
+        return cls(revision=record.number, created=_moment(record.created), note=record.note, links=links, **more)
 
 
 class RevisionDocument(RevisionEntry):
@@ -144,13 +172,14 @@ class RevisionList(_Answer):
 
 
 class ViewerDocument(_Answer):
-    """What the page plays: `model` and `strain` are addresses to read by Range; see formats/playback."""
+    """What the page plays: `model`, `strain` and `materials` are addresses to read by Range; see formats/playback."""
 
     model_config = ConfigDict(extra="allow")
 
     kind: Literal["gltf", "vertices"]
     model: str
     strain: str | None
+    materials: str | None = None
     frames: int
     frame_rate: float
     start_seconds: float = 0.0

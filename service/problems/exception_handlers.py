@@ -10,10 +10,11 @@ from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 
 from caesura.core.errors import CaesuraError
-from caesura.service.problems.status_table import Refusal, problem_response, refusal_response
+from caesura.service.problems.allowed_methods import allowed_methods
+from caesura.service.problems.problem_response import RequestProblem, problem_response, request_problem_response
 from caesura.worker.records.connection import refuses_writes
 from caesura.worker.store.blobs import BlobMissing
-from caesura.worker.store.disk_space import FULL, storage_full
+from caesura.worker.store.disk_space import FULL, storage_full_error
 
 log = logging.getLogger(__name__)
 
@@ -36,7 +37,7 @@ def install_handlers(app: FastAPI) -> None:
 
 
 async def _handle_caesura_error(_: Request, error: CaesuraError) -> Response:
-    return refusal_response(error) if isinstance(error, Refusal) else problem_response(error.problem())
+    return request_problem_response(error) if isinstance(error, RequestProblem) else problem_response(error.problem())
 
 
 async def _handle_invalid_request(_: Request, error: RequestValidationError) -> Response:
@@ -53,9 +54,12 @@ async def _handle_invalid_request(_: Request, error: RequestValidationError) -> 
 async def _handle_routing_error(request: Request, error: HTTPException) -> Response:
     path = request.url.path
     if error.status_code == 405:
-        allowed = (error.headers or {}).get("Allow", "")
-        detail = f"{request.method} is not possible on {path}. Allowed: {allowed}."
-        return problem_response({"kind": "request", "code": "method-not-allowed", "detail": detail}, error.headers)
+        allow = ", ".join(allowed_methods(request.app, path))
+        if request.method == "OPTIONS":
+            return Response(status_code=204, headers={"Allow": allow})
+        detail = f"{request.method} is not possible on {path}. Allowed: {allow}."
+        problem = {"kind": "request", "code": "method-not-allowed", "detail": detail}
+        return problem_response(problem, {"Allow": allow})
     if error.status_code == 404:
         detail = f"No resource exists at {path}. /openapi.json lists all paths."
         return problem_response({"kind": "request", "code": "not-found", "detail": detail})
@@ -77,7 +81,7 @@ async def _handle_storage_error(_: Request, error: OSError) -> Response:
     if error.errno not in FULL:
         raise error
     log.error("The disk is full: %s", error)
-    return problem_response(storage_full().problem())
+    return problem_response(storage_full_error().problem())
 
 
 async def _refused_write(_: Request, error: redis.ResponseError) -> Response:
@@ -85,7 +89,7 @@ async def _refused_write(_: Request, error: redis.ResponseError) -> Response:
     if not refuses_writes(error):
         raise error
     log.error("Redis takes no writes: its disk is full")
-    return problem_response(storage_full().problem())
+    return problem_response(storage_full_error().problem())
 
 
 async def _handle_redis_error(_: Request, error: Exception) -> Response:

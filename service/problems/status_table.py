@@ -1,19 +1,10 @@
-"""Problem documents, and the table of their statuses and titles.
+"""The HTTP status and the title of every problem, by its code or its kind.
 
-Below this layer nobody knows HTTP: `core` raises, the worker stores, and here each code or kind becomes a status
-and an RFC 9457 problem document.
+Below this layer nobody knows HTTP: `core` raises, the worker stores, and here each code or kind becomes a status.
 """
 
 from collections.abc import Mapping
-from types import MappingProxyType
 from typing import Any
-
-from fastapi import Response
-from fastapi.responses import JSONResponse
-
-from caesura.core.errors import CaesuraError
-
-MEDIA_TYPE = "application/problem+json"
 
 STATUS_OF_CODE: dict[str, int] = {
     # kinds of core.errors: what is wrong with the file or the parameters
@@ -37,8 +28,23 @@ STATUS_OF_CODE: dict[str, int] = {
     "not-finished": 409,
     "cancelled": 409,
     "too-many-revisions": 409,
+    "too-many-callbacks": 409,
+    "too-many-takes": 409,
+    "name-taken": 409,
+    "not-open": 409,
+    "stale-take": 412,
+    "forbidden-address": 422,
+    "tus-version": 412,
+    "wrong-offset": 409,
+    "upload-busy": 423,
+    "piece-too-long": 413,
+    "too-many-uploads": 429,
+    "host-not-allowed": 403,
+    "fetch-failed": 422,
+    "too-many-fetches": 503,
     "stale-revision": 412,
     "no-if-match": 428,
+    "unsupported-encoding": 415,
     "gone": 410,
     "animation-deleted": 410,
     "range-not-satisfiable": 416,
@@ -59,74 +65,101 @@ STATUS_OF_CODE: dict[str, int] = {
 """Status by code, else by kind. A code in neither is a bug: 500."""
 
 TITLE_OF_CODE = {
+    "ambiguous-take": "Take name not unique",
+    "animation-deleted": "Animation deleted",
+    "bad-request": "Bad request",
+    "body-model-parameters": "Body model parameters not supported",
+    "cancelled": "Segmentation cancelled",
+    "decompression-failed": "Geometry cannot be decompressed",
+    "duplicate-part": "Two files of one name",
+    "external-resource": "File refers to a missing file",
+    "fetch-failed": "File could not be fetched",
+    "forbidden-address": "Address not allowed",
     "foreign-host": "Host name not allowed",
     "foreign-origin": "Origin not allowed",
     "gone": "File deleted",
+    "handles-too-long": "Clip handles too long",
+    "head-too-large": "Request head too large",
+    "hidden-markers": "Markers hidden too long",
+    "index-out-of-range": "Vertex index out of range",
     "internal-error": "Internal server error",
     "invalid-gltf": "Invalid glTF file",
     "json-too-long": "JSON body too long",
     "key-needed": "API key required",
+    "malformed-alembic": "Malformed Alembic file",
+    "malformed-amc": "Malformed AMC file",
+    "malformed-asf": "Malformed ASF file",
     "malformed-bvh": "Malformed BVH file",
+    "malformed-c3d": "Malformed C3D file",
+    "malformed-fbx": "Malformed FBX file",
     "malformed-glb": "Malformed GLB file",
+    "malformed-gzip": "Malformed gzip body",
     "malformed-json": "Malformed JSON",
+    "malformed-mdd": "Malformed MDD file",
     "malformed-multipart": "Malformed multipart form",
     "malformed-npz": "Malformed NPZ file",
+    "malformed-pc2": "Malformed PC2 file",
     "malformed-shape": "Malformed OBJ or PLY file",
+    "malformed-usd": "Malformed USD file",
     "malformed-zip": "Malformed zip archive",
+    "misplaced-parameter": "Parameter in the wrong place",
+    "missing-companion": "Companion file missing",
+    "missing-parameter": "Parameter missing",
     "motions-needed": "Number of motions required",
     "no-animation": "No animation in the file",
+    "no-clips": "No clips to make",
     "no-file": "File required",
+    "no-glb-clips": "No clips as GLB",
     "no-if-match": "If-Match header required",
     "no-key-frames": "No key-frames in the result",
     "no-mesh": "No mesh in the file",
+    "not-comparable": "Takes of different bodies",
+    "no-takes": "No take to compare",
+    "same-name": "Two takes of one name",
+    "unknown-motion": "Unknown motion",
+    "unknown-segment": "Unknown segment",
     "no-motion": "No motion in the file",
+    "name-taken": "Name of another motion",
+    "not-open": "Proposal not open",
+    "no-such-frame": "Frame outside the take",
+    "no-such-table": "Table not available in this form",
+    "non-finite-data": "Infinite or undefined number in the file",
     "not-allowed": "Not allowed with this key",
     "not-finished": "Result not finished",
     "not-ready": "Service at capacity",
+    "one-animation": "More than one animation, or none",
     "out-of-memory": "Memory limit reached",
     "out-of-time": "Time limit reached",
     "outside-take": "Time range outside the take",
     "queue-full": "Queue full",
+    "queue-unavailable": "Queue not available",
+    "range-not-satisfiable": "Range outside the file",
+    "reader-crashed": "Reader failed on the file",
+    "reader-missing": "Reader not installed",
+    "repeated-parameter": "Parameter given twice",
     "stale-revision": "Newer revision exists",
+    "stale-take": "Take changed meanwhile",
     "storage-full": "Insufficient storage",
+    "storage-unavailable": "Storage not available",
+    "too-long-for-method": "Take too long for this method",
+    "unknown-field": "Unknown form field",
+    "tus-version": "Version of tus not supported",
     "unknown-key": "Unknown API key",
+    "unmatched-points": "Points do not match the mesh",
+    "unmatched-skeleton": "Skeleton does not match",
+    "unsupported-dtype": "Unsupported array type",
+    "unsupported-encoding": "Unsupported content encoding",
+    "unsupported-extension": "Unsupported glTF extension",
+    "unsupported-fbx-version": "Unsupported FBX version",
+    "unsupported-gltf-version": "Unsupported glTF version",
+    "varying-topology": "Mesh changes over time",
+    "worker-killed": "Worker killed",
+    "worker-lost": "Worker lost",
+    "wrong-shape": "Array of the wrong shape",
 }
 """Titles of codes that do not read as a title themselves; every other title is its code in words."""
-
-RETRY_SECONDS = {409: 1, 503: 5}
-
-
-class Refusal(CaesuraError):
-    """The request cannot be answered as it stands: nothing there, not ready yet, or not understood."""
-
-    kind = "request"
-    headers: Mapping[str, str] = MappingProxyType({})
 
 
 def status_of(problem: Mapping[str, Any]) -> int:
     """The HTTP status of a problem, raised here or stored by a worker."""
     return STATUS_OF_CODE.get(problem["code"]) or STATUS_OF_CODE.get(problem.get("kind", ""), 500)
-
-
-def problem_response(problem: Mapping[str, Any], headers: Mapping[str, str] | None = None) -> Response:
-    """The problem document: type, title, status, detail, code, and where (pointer, parameter, limit, …)."""
-    status = status_of(problem)
-    code = str(problem["code"])
-    document = {
-        "type": f"urn:caesura:problem:{code}",
-        "title": TITLE_OF_CODE.get(code) or code.replace("-", " ").capitalize(),
-        "status": status,
-        **problem,
-    }
-    retry = {"Retry-After": str(RETRY_SECONDS[status])} if status in RETRY_SECONDS else {}
-    all_headers = {
-        "Cache-Control": "no-store",
-        **retry,
-        **(headers or {}),
-    }  # a 404 may be kept for others, unless it says so
-    return JSONResponse(document, status, all_headers, MEDIA_TYPE)
-
-
-def refusal_response(refused: Refusal) -> Response:
-    """A refusal, with the headers that belong to it."""
-    return problem_response(refused.problem(), refused.headers)

@@ -4,8 +4,10 @@ from collections.abc import Iterable
 
 from pydantic import BaseModel
 
-from caesura.formats.exports.table import EXPORTS, Export, exports_of
-from caesura.service.problems.status_table import Refusal
+from caesura.formats.exports.export_table import EXPORTS, Export, exports_of
+from caesura.formats.exports.game_engines import ENGINES
+from caesura.service.problems.problem_response import RequestProblem
+from caesura.service.results.byte_ranges import OCTETS
 
 
 class ExportDocument(BaseModel):
@@ -16,6 +18,23 @@ class ExportDocument(BaseModel):
     description: str
     queued: bool
     """Whether a worker writes it when it is first asked for: the answer is 202 until then."""
+
+
+class EngineDocument(BaseModel):
+    """A program that imports clips, how to import there, and the choices of clips that suit it."""
+
+    name: str
+    title: str
+    advice: str
+    options: dict[str, str]
+
+
+def engine_descriptions() -> tuple[EngineDocument, ...]:
+    """All programs that are known."""
+    return tuple(
+        EngineDocument(name=engine.name, title=engine.title, advice=engine.advice, options=dict(engine.options))
+        for engine in ENGINES
+    )
 
 
 def export_documents() -> tuple[ExportDocument, ...]:
@@ -31,7 +50,9 @@ def export_by_suffix(stem: str, suffix: str) -> Export:
     """The file of an address that ends in `stem.suffix`."""
     exports = exports_of(stem)
     if suffix not in exports:
-        raise Refusal("not-found", f"There is no {stem}.{suffix[:20]}. There are: {_list_formats(exports.values())}.")
+        raise RequestProblem(
+            "not-found", f"There is no {stem}.{suffix[:20]}. There are: {_list_formats(exports.values())}."
+        )
     return exports[suffix]
 
 
@@ -39,7 +60,7 @@ def export_by_table(export: Export, table: str) -> Export:
     """The file of the same address that holds another table."""
     exports = exports_of(export.stem, table)
     if export.suffix not in exports:
-        raise Refusal("no-such-table", f"{export.suffix} has no table {table!r}; table=frames goes with csv.")
+        raise RequestProblem("no-such-table", f"{export.suffix} has no table {table!r}; table=frames goes with csv.")
     return exports[export.suffix]
 
 
@@ -49,7 +70,9 @@ def export_by_accept(header: str) -> Export:
     wanted = [_quality(item) for item in header.split(",") if item.strip()] or [("*/*", 1.0)]
     best = max(exports, key=lambda export: _match_quality(export, wanted))
     if _match_quality(best, wanted) <= 0:
-        raise Refusal("not-acceptable", f"The result does not come as {header}. It comes as: {_list_formats(exports)}.")
+        raise RequestProblem(
+            "not-acceptable", f"The result does not come as {header}. It comes as: {_list_formats(exports)}."
+        )
     return best
 
 
@@ -64,7 +87,8 @@ def _quality(item: str) -> tuple[str, float]:
 
 def _match_quality(export: Export, wanted: list[tuple[str, float]]) -> float:
     """The quality of the most specific item that matches."""
-    for pattern in (export.media_type, export.media_type.split("/")[0] + "/*", "*/*"):
+    octets = [] if export.is_text else [OCTETS]
+    for pattern in (export.media_type, *octets, export.media_type.split("/")[0] + "/*", "*/*"):
         for media_type, quality in wanted:
             if media_type == pattern:
                 return quality

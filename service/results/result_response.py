@@ -2,19 +2,28 @@
 
 from contextlib import aclosing
 from dataclasses import dataclass
+from pathlib import PurePath
 
 from anyio import to_thread
 from fastapi import Request, Response
 
-from caesura.formats.exports.table import Export
+from caesura.formats.exports.export_table import Export
 from caesura.service.backend import Backend
+from caesura.service.http.file_name import plain_name
 from caesura.service.http.prefer_header import preferred_wait_seconds
-from caesura.service.problems.status_table import Refusal, problem_response
+from caesura.service.problems.problem_response import RequestProblem, problem_response
 from caesura.service.response_documents import StatusDocument
-from caesura.service.results.byte_ranges import StoredFile, cache_headers, is_not_modified, stored_response
+from caesura.service.results.byte_ranges import (
+    StoredFile,
+    accepted_type,
+    cache_headers,
+    content_disposition,
+    is_not_modified,
+    stored_response,
+)
 from caesura.service.results.result_formats import export_by_table
 from caesura.service.results.revision_request import revised_document, revision_number
-from caesura.service.segmentations.status_response import ASK_AGAIN, preference_applied, problem_of, status_response
+from caesura.service.segmentations.document_response import ASK_AGAIN, document_response, preference_applied, problem_of
 from caesura.worker.queue.auxiliary_jobs import submit_export
 from caesura.worker.records.record_types import ExportRecord, SegmentationRecord
 from caesura.worker.retention.deletion import delete_result_file
@@ -46,6 +55,20 @@ async def result_response(
     return await _text(backend, request, record, export_by_table(wanted.export, wanted.table), number)
 
 
+async def download_stem(backend: Backend, record: SegmentationRecord) -> str:
+    """What the files of a result are called before their endings: as the animation, and the take of several.
+
+    As the segmentation where the animation was deleted meanwhile.
+    """
+    animation = await backend.records.owned_animation(record.animation, record.owner)
+    stem = PurePath(record.name or (animation.name if animation else "")).stem or record.id
+    if animation is None or animation.take_count < 2:
+        return stem
+    chosen = record.parameters["take"]
+    names = [take.name for take in await backend.records.takes(animation) if take.index == chosen]
+    return f"{stem}-{plain_name(names[0]) or chosen}" if names else stem
+
+
 def unfinished_response(request: Request, record: SegmentationRecord) -> Response | None:
     """Why there is no result, where there is none."""
     applied = preference_applied(request)
@@ -64,9 +87,9 @@ async def _text(
     if is_not_modified(request, headers["ETag"]):
         return Response(status_code=304, headers=headers)
     content = await _content(backend, record, export, number)
-    if export.suffix != "json":
-        headers["Content-Disposition"] = f'inline; filename="{record.id}.{export.suffix}"'
-    return Response(content, headers=headers, media_type=export.media_type)
+    name = await download_stem(backend, record) + export.file_ending(export.media_type)
+    headers["Content-Disposition"] = content_disposition(name, "inline")
+    return Response(content, headers=headers, media_type=accepted_type(request, export.media_type))
 
 
 async def _content(backend: Backend, record: SegmentationRecord, export: Export, number: int) -> str | bytes:
@@ -74,7 +97,7 @@ async def _content(backend: Backend, record: SegmentationRecord, export: Export,
     if export.suffix == "json" and not number:
         stored = await backend.records.document(record.id)
         if stored is None:
-            raise Refusal("not-found", f"There is no segmentation {record.id}. It may have been deleted.")
+            raise RequestProblem("not-found", f"There is no segmentation {record.id}. It may have been deleted.")
         return stored
     document = await revised_document(backend, record, number)
     return await to_thread.run_sync(export.text, document)
@@ -86,9 +109,8 @@ async def _job_made_response(
     """Made of arrays by a job at the first request, then served as stored."""
     query = f"?revision={number}" if number else ""
     here = f"/v1/segmentations/{record.id}/{export.path}{query}"
-    return await result_file_response(
-        backend, request, record, export.suffix + query, here, f"{record.id}.{export.suffix}", export.media_type
-    )
+    name = await download_stem(backend, record) + export.file_ending(export.media_type)
+    return await result_file_response(backend, request, record, export.suffix + query, here, name, export.media_type)
 
 
 async def result_file_response(
@@ -107,7 +129,7 @@ async def result_file_response(
         return problem_response(made.problem, applied)
     size = None if made.key is None else await to_thread.run_sync(_size, backend, record.id, form, made.key)
     if made.key is None or size is None:
-        return status_response(StatusDocument.of(record), 202, {"Location": here} | applied | ASK_AGAIN)
+        return document_response(StatusDocument.of(record), 202, {"Location": here} | applied | ASK_AGAIN)
     if made.media_type == "application/zip":
         name = name.rpartition(".")[0] + ".zip"
     tag = f'"{made.key.rpartition("/")[2]}"'

@@ -12,7 +12,7 @@ from caesura.core.revision import Edit, apply_revision
 from caesura.core.segmentation_document import SegmentationDocument
 from caesura.service.backend import Backend
 from caesura.service.http.json_body import read_json_body
-from caesura.service.problems.status_table import Refusal
+from caesura.service.problems.problem_response import RequestProblem
 from caesura.worker.records.record_types import SegmentationRecord
 from caesura.worker.records.revisions import MOST_REVISIONS, Revisions
 
@@ -36,7 +36,7 @@ class RevisionRequest(BaseModel):
 def revision_number(record: SegmentationRecord, revision: str) -> int:
     """The number that `revision` means: 0, a number, or `latest`.
 
-    Raises `ParameterError` for another word, `Refusal` ("not-found") for a revision that there is not.
+    Raises `ParameterError` for another word, `RequestProblem` ("not-found") for a revision that there is not.
     """
     if revision == "latest":
         return record.revision
@@ -45,24 +45,26 @@ def revision_number(record: SegmentationRecord, revision: str) -> int:
         raise ParameterError("invalid-parameter", detail, parameter="revision")
     if int(revision) > record.revision:
         detail = f"There is no revision {int(revision)}. The newest is {record.revision}; 0 is the result as computed."
-        raise Refusal("not-found", detail)
+        raise RequestProblem("not-found", detail)
     return int(revision)
 
 
 def expected_revision(request: Request) -> int | None:
     """The revision that the client has edited, as If-Match says; None for `*`, whichever that is.
 
-    Raises `Refusal` where it says nothing (428), or what is no tag of a revision (412).
+    Raises `RequestProblem` where it says nothing (428), or what is no tag of a revision (412).
     """
     header = request.headers.get("if-match", "").strip()
     if not header:
         detail = 'Say which revision was edited: send its ETag as If-Match, `If-Match: "0"` for the computed result.'
-        raise Refusal("no-if-match", detail)
+        raise RequestProblem("no-if-match", detail)
     if header == "*":
         return None
     tag = re.fullmatch(r'"([0-9]{1,6})"', header)
     if tag is None:
-        raise Refusal("stale-revision", 'If-Match is no tag of a revision. It is such as "0": a number in quotes.')
+        raise RequestProblem(
+            "stale-revision", 'If-Match is no tag of a revision. It is such as "0": a number in quotes.'
+        )
     return int(tag[1])
 
 
@@ -81,23 +83,23 @@ async def parse_revision_request(request: Request) -> RevisionRequest:
     return order
 
 
-def refuse_stale_revision(record: SegmentationRecord) -> Refusal:
+def refuse_stale_revision(record: SegmentationRecord) -> RequestProblem:
     """Why a revision was not kept."""
     if record.revision >= MOST_REVISIONS:
         detail = (
             f"The result has {MOST_REVISIONS} revisions, which is the limit. Segment the take again to edit further."
         )
-        return Refusal("too-many-revisions", detail, limit=MOST_REVISIONS)
+        return RequestProblem("too-many-revisions", detail, limit=MOST_REVISIONS)
     detail = f"Another person saved revision {record.revision} first. Load it, then edit again."
-    return Refusal("stale-revision", detail, current=record.revision)
+    return RequestProblem("stale-revision", detail, current=record.revision)
 
 
 async def revised_document(backend: Backend, record: SegmentationRecord, number: int) -> SegmentationDocument:
-    """The result as it reads with that revision; raises `Refusal` where it was deleted meanwhile."""
+    """The result as it reads with that revision; raises `RequestProblem` where it was deleted meanwhile."""
     stored = await backend.records.document(record.id)
     kept = await Revisions(backend.records).one(record.id, number) if number else None
     if stored is None or (number and kept is None):
-        raise Refusal("not-found", f"There is no segmentation {record.id}. It may have been deleted.")
+        raise RequestProblem("not-found", f"There is no segmentation {record.id}. It may have been deleted.")
     return await to_thread.run_sync(_read, stored, number, kept[1] if kept else None)
 
 
