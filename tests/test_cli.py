@@ -4,6 +4,7 @@ import json
 import socket
 import subprocess
 import sys
+import zipfile
 from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
@@ -138,14 +139,21 @@ def test_the_score_of_a_result(folder: Path, tmp_path: Path, document: dict[str,
     assert run.returncode == 0, run.stderr
     figures = json.loads(run.stdout)
     assert figures["frame_accuracy"] > 0.95
-    assert set(figures) == {"frame_accuracy", "adjusted_rand_index", "boundary_f1_0.5_s", "boundary_f1_0.15_s"}
+    assert set(figures) == {
+        "frame_accuracy",
+        "error_measure",
+        "rand_index",
+        "adjusted_rand_index",
+        "boundary_f1_0.5_s",
+        "boundary_f1_0.15_s",
+    }
 
 
 def test_the_truth_agrees_with_itself(folder: Path) -> None:
-    """Every figure of the truth against itself is 1."""
+    """Every figure of the truth against itself is 1, but for the error, which is 0."""
     run = caesura("score", folder / "take.truth.json", folder / "take.truth.json")
     assert run.returncode == 0, run.stderr
-    assert [line.split()[-1] for line in run.stdout.splitlines()] == ["1.0000"] * 4
+    assert [line.split()[-1] for line in run.stdout.splitlines()] == ["1.0000", "0.0000", *["1.0000"] * 4]
 
 
 def test_different_takes_are_not_compared(folder: Path, tmp_path: Path) -> None:
@@ -326,3 +334,34 @@ def test_control_characters_of_names_are_shown_and_not_sent(folder: Path, tmp_pa
         assert r"\x1b[2J\nwalk\u202e" in said
         assert not {"\x1b", "\u202e"} & set(said)
         assert "\nwalk" not in said
+
+
+def test_takes_cut_together_share_names_and_are_searched(folder: Path, tmp_path: Path) -> None:
+    """A bad file is named and left out; one table holds all; clips are called after motion and file; find finds."""
+    again, out = tmp_path / "again.npz", tmp_path / "cut"
+    with np.load(folder / "take.npz") as take:
+        turned = 2 * take["vertices"][::-1, :, [1, 2, 0]]
+        np.savez(again, vertices=turned, triangles=take["triangles"], frame_rate=take["frame_rate"])
+    files = (folder / "take.npz", folder / "page.glb", again)
+    run = caesura("segment", *files, "--together", "--motions", "2", "--out", out, "--clips")
+    assert run.returncode == 3
+    assert "page.glb" in run.stderr
+    assert "2 motions in 2 takes" in run.stdout
+    rows = [line.split(",") for line in (out / "motions.csv").read_text().splitlines()]
+    assert rows[0][:5] == ["take", "name", "motion", "start", "end"]
+    assert [(row[0].rpartition("/")[2], row[1]) for row in rows[1:]] == [
+        ("take", "A"), ("take", "B"), ("again", "B"), ("again", "A"),
+    ]  # fmt: skip
+    assert sorted(row[8] for row in rows[1:]) == ["0", "0", "1", "1"]
+    document = json.loads((out / "motions.json").read_text())
+    assert [motion["takes"] for motion in document["motions"]] == [2, 2]
+    (clips,) = out.rglob("again.clips.zip")
+    with zipfile.ZipFile(clips) as archive:
+        assert {name.partition(".")[0] for name in archive.namelist()} == {"A_again_01", "B_again_01"}
+    found = caesura("find", folder / "take.npz", "--in", out, "--start", "1", "--end", "2", "--most", "9", "--json")
+    assert found.returncode == 0, found.stderr
+    ranges = json.loads(found.stdout)
+    assert ranges[0]["distance"] == pytest.approx(0, abs=0.01)
+    assert {one["take"].rpartition("/")[2] for one in ranges} == {"take", "again"}
+    assert caesura("segment", again, "--together").returncode == 2
+    assert caesura("find", again, "--in", tmp_path).returncode == 2

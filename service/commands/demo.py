@@ -1,22 +1,21 @@
 """`caesura demo`: two figures whose motions are known, through the running service."""
 
-import io
 import signal
 from contextlib import suppress
 from itertools import zip_longest
 
 import click
 
-from caesura.core.control_characters import escape_control_characters
 from caesura.core.segmentation_document import Segment, SegmentationDocument
-from caesura.service.commands.labelling import Labelling, compute_agreement
-from caesura.service.commands.problems import Command
-from caesura.service.commands.progress_bar import ProgressBar
+from caesura.service.commands.exit_codes import Command
+from caesura.service.commands.frame_labels import Labelling, compute_agreement
+from caesura.service.commands.terminal.progress_bar import ProgressBar
+from caesura.worker.control_characters import escape_control_characters
 
 GOOD_ACCURACY = 0.95
 
 
-@click.command(cls=Command)
+@click.command(cls=Command, short_help="Segment two sample figures, and open them in the page.")
 @click.option("--once", is_flag=True, help="End after printing.")
 @click.option("--port", type=click.IntRange(0, 65535), default=8000, show_default=True, help="Port; 0: any free one.")
 @click.option("--url", help="A service that is running already; without it, one is started here.")
@@ -44,8 +43,8 @@ def demo(context: click.Context, /, once: bool, port: int, url: str | None) -> N
 
 def _segment_samples(url: str) -> float:
     """Upload, wait, compare and print, for each figure; the lowest frame accuracy."""
+    from caesura.client.client import Client
     from caesura.samples.sample_figures import FIGURES, build_figure
-    from caesura.service.commands.client import Client
 
     accuracies = []
     with Client(url) as client:
@@ -54,8 +53,7 @@ def _segment_samples(url: str) -> float:
             truth = Labelling.of(sample.truth.document())
             motions = len({label for _, _, label in truth.segments})
             with ProgressBar() as progress:
-                glb = io.BytesIO(sample.glb)
-                found = client.segment(glb, f"{name}.glb", {"motions": str(motions)}, progress)
+                found = client.segment(sample.glb, name=f"{name}.glb", progress=progress, motions=motions)
             accuracy = compute_agreement(Labelling.of(found.model_dump()), truth)["frame_accuracy"]
             click.echo(_compare_with_truth(name, found, truth))
             click.echo(f"  frame accuracy {accuracy:.3f}, given the number of motions, {motions}")

@@ -1,32 +1,69 @@
 """The exit code of a command, and its error as a sentence or as JSON."""
 
+import errno
 import json
+import os
 import sys
 from collections.abc import Mapping
 from typing import Any
 
 import click
 
-from caesura.core.control_characters import escape_control_characters
+from caesura.client.errors import Unreachable
 from caesura.core.errors import ERROR_KINDS, CaesuraError, InputError
+from caesura.worker.control_characters import escape_control_characters
 
+FAULT = 1
 USAGE = 2
 BAD_FILE = 3
 UNREACHABLE = 4
+NOT_WRITTEN = 5
+INTERRUPTED = 130
+BROKEN_PIPE = 141
+TERMINATED = 143
+
+EXIT_CODES = {
+    0: "done",
+    FAULT: "a fault of Caesura's",
+    USAGE: "wrong usage",
+    BAD_FILE: "bad file",
+    UNREACHABLE: "server unreachable or unable",
+    NOT_WRITTEN: "output not written, such as on a full disk",
+    INTERRUPTED: "Ctrl-C",
+    BROKEN_PIPE: "nobody reads the output any more",
+    TERMINATED: "told to end",
+}
+NO_ROOM = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 
-class Unreachable(CaesuraError):
-    """There is no server to talk to, or it cannot do its work."""
+class NotWritten(CaesuraError):
+    """A result could not be written where it should go."""
 
-    kind = "unreachable"
+    kind = "output"
+
+    @classmethod
+    def because(cls, fault: OSError, where: str) -> "NotWritten":
+        """The refusal for an error of the system; `disk-full` where there is no room."""
+        code = "disk-full" if fault.errno in NO_ROOM else "not-written"
+        return cls(code, f"{where} could not be written: {fault.strerror or fault}.")
 
 
 def exit_code(problem: Mapping[str, Any]) -> int:
-    """2 for a parameter, 3 for a file; what is neither, only a server can have said."""
+    """2 for a parameter, 3 for a file, 5 for an output; what is none of them, only a server can have said."""
     kind = problem.get("kind")
     if kind in {"parameter", "usage"}:
         return USAGE
+    if kind in {"bug", "output"}:
+        return FAULT if kind == "bug" else NOT_WRITTEN
     return BAD_FILE if issubclass(ERROR_KINDS.get(str(kind), Exception), InputError) else UNREACHABLE
+
+
+def system_problem(fault: OSError) -> dict[str, Any]:
+    """An error of the system as a problem: of an output where there is no room, else of a file."""
+    if fault.errno in NO_ROOM:
+        return NotWritten("disk-full", f"There is no room: {fault.strerror}.").problem()
+    detail = f"It could not be read, or its results not written: {fault}."
+    return {"kind": "input", "code": "file-system", "detail": detail}
 
 
 def print_problem(problem: Mapping[str, Any], *, as_json: bool, file: str | None = None) -> int:
@@ -37,6 +74,13 @@ def print_problem(problem: Mapping[str, Any], *, as_json: bool, file: str | None
         line = f"caesura: {file + ': ' if file else ''}{problem['detail']} [{problem['code']}]"
         click.echo(escape_control_characters(line), err=True)
     return exit_code(problem)
+
+
+def leave_broken_pipe() -> int:
+    """Write nothing more, not even what is still held back for a reader that has gone; the exit code."""
+    with open(os.devnull, "wb") as nowhere:  # noqa: PTH123  its number is what is wanted
+        os.dup2(nowhere.fileno(), sys.stdout.fileno())
+    return BROKEN_PIPE
 
 
 class Command(click.Command):
@@ -54,7 +98,23 @@ class Command(click.Command):
             raise click.exceptions.Exit(print_problem(problem, as_json=True)) from None
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Run; a refusal that the command does not handle itself ends it here."""
+        """Run; a refusal that the command does not handle itself ends it here, and so does Ctrl-C."""
+        try:
+            try:
+                return self._invoke(ctx)
+            finally:
+                sys.stdout.flush()  # here a full disk can still be said
+        except BrokenPipeError:
+            ctx.exit(leave_broken_pipe())
+        except KeyboardInterrupt:
+            click.echo("caesura: interrupted", err=True)
+            ctx.exit(INTERRUPTED)
+        except OSError as fault:
+            if fault.errno in NO_ROOM:
+                leave_broken_pipe()
+            ctx.exit(print_problem(system_problem(fault), as_json=ctx.params.get("as_json", False)))
+
+    def _invoke(self, ctx: click.Context) -> Any:
         as_json = ctx.params.get("as_json", False)
         try:
             return super().invoke(ctx)

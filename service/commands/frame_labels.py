@@ -1,9 +1,7 @@
 """Labels of frames from a segmentation or a truth, and the agreement of two."""
 
-import json
 import math
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from caesura.core.errors import InvalidModel
@@ -22,18 +20,12 @@ class Labelling:
     frame_rate: float
     frames: int
     segments: tuple[tuple[int, int, str], ...]
+    start_seconds: float = 0.0
 
-    @classmethod
-    def read(cls, path: Path) -> "Labelling":
-        """From a segmentation document or a truth: `segments` with start, end and `motion` or `label`."""
-        try:
-            with path.open(encoding="utf-8") as file:
-                return cls.of(json.load(file))
-        except (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError) as wrong:
-            # Of text that is none, repr would show all of it.
-            said = str(wrong) if isinstance(wrong, ValueError) else repr(wrong)
-            detail = f"{path} is neither a segmentation document nor a truth: {said}."
-            raise InvalidModel("not-a-labelling", detail) from None
+    def __post_init__(self) -> None:
+        """Raises ValueError where it has too many frames or labels to be compared."""
+        if self.frames > MAX_FRAMES or len({label for _, _, label in self.segments}) > MAX_LABELS:
+            raise ValueError(f"it has more than {MAX_FRAMES} frames or {MAX_LABELS} labels")
 
     @classmethod
     def of(cls, document: dict[str, Any]) -> "Labelling":
@@ -47,16 +39,18 @@ class Labelling:
             raise ValueError("the segments do not tile its frames")
         if not segments or any(start >= end for start, end, _ in segments):
             raise ValueError("it has no segments, or some without frames")
-        if bounds[-1] > MAX_FRAMES or len({label for _, _, label in segments}) > MAX_LABELS:
-            raise ValueError(f"it has more than {MAX_FRAMES} frames or {MAX_LABELS} labels")
         rate = float(document["frame_rate"] if "frame_rate" in document else document["fps"])
         if not (math.isfinite(rate) and rate > 0):
             raise ValueError(f"{rate:g} frames a second are no frame rate")
-        return cls(rate, int(document["frames"]), segments)
+        source = document.get("source")  # of a truth by others it may be where the take is from
+        start = float(source.get("start_seconds", 0.0)) if isinstance(source, dict) else 0.0
+        if not math.isfinite(start):
+            raise ValueError(f"it starts at {start:g} seconds")
+        return cls(rate, int(document["frames"]), segments, start)
 
 
 def compute_agreement(found: Labelling, truth: Labelling) -> dict[str, float]:
-    """Frame accuracy under the best matching of labels, adjusted Rand index, boundary F1 at each tolerance."""
+    """Frame accuracy under the best matching of labels, the error of Eq. 6, Rand indices, boundary F1 by tolerance."""
     if (found.frames, found.frame_rate) != (truth.frames, truth.frame_rate):
         raise InvalidModel(
             "different-frames",
@@ -66,7 +60,7 @@ def compute_agreement(found: Labelling, truth: Labelling) -> dict[str, float]:
 
     import numpy as np
 
-    from caesura.core.agreement import adjusted_rand_index, boundary_scores, frame_accuracy
+    from caesura.core.agreement import adjusted_rand_index, boundary_scores, error_measure, frame_accuracy, rand_index
 
     ends = np.unique([end for of in (found, truth) for _, end, _ in of.segments])
     lengths = np.diff(ends, prepend=0)
@@ -82,6 +76,8 @@ def compute_agreement(found: Labelling, truth: Labelling) -> dict[str, float]:
 
     figures = {
         "frame_accuracy": float(frame_accuracy(labels(found), labels(truth), lengths)),
+        "error_measure": float(error_measure(labels(found), labels(truth), lengths)),
+        "rand_index": float(rand_index(labels(found), labels(truth), lengths)),
         "adjusted_rand_index": float(adjusted_rand_index(labels(found), labels(truth), lengths)),
     }
     for seconds in TOLERANCES_SECONDS:

@@ -7,14 +7,15 @@ from typing import TYPE_CHECKING
 
 import click
 
+from caesura.client.errors import Unreachable
 from caesura.core.errors import ParameterError
-from caesura.service.commands.problems import Command, Unreachable
+from caesura.service.commands.exit_codes import Command
 
 if TYPE_CHECKING:
-    from caesura.service.commands.key_ring import KeyRing
+    from caesura.service.api_keys.key_ring import KeyRing
 
 
-@click.group()
+@click.group(short_help="Make, list and revoke the keys of a service.")
 def keys() -> None:
     """Make, list and revoke the keys of the service that REDIS_URL or CAESURA_DATA_DIR names.
 
@@ -73,7 +74,7 @@ def _open_key_ring() -> Iterator["KeyRing"]:
     """The keys of the service; raises `Unreachable` where its Redis does not answer."""
     from redis.exceptions import RedisError
 
-    from caesura.service.commands.key_ring import KeyRing
+    from caesura.service.api_keys.key_ring import KeyRing
     from caesura.service.settings import ServiceSettings
     from caesura.worker.records.connection import connect
 

@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 
 import httpx
 
-from caesura.service.commands.problems import Unreachable
+from caesura.client.errors import Unreachable
 from caesura.worker.parent_watch import parent_watch
 
 START_SECONDS = 60.0

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Annotated, Any, get_args, get_origin
 
 import click
+from click.shell_completion import CompletionItem
 from pydantic.fields import FieldInfo
 
 from caesura.core.parameters import Parameters
@@ -16,9 +17,19 @@ def parameter_option_decorators(function: Callable[..., Any]) -> Callable[..., A
     Names are written with dashes or underscores. Values stay text: `Parameters.parse` judges them, as it does a
     query string's.
     """
-    for name, field in reversed(Parameters.model_fields.items()):
-        function = _option(name, field)(function)
-    return function
+    return parameter_options_without()(function)
+
+
+def parameter_options_without(*names: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """The same decorator, with options for all parameters but these."""
+
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+        for name, field in reversed(Parameters.model_fields.items()):
+            if name not in names:
+                function = _option(name, field)(function)
+        return function
+
+    return decorate
 
 
 def clip_option_decorators(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -33,7 +44,7 @@ def clip_option_decorators(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
-def clip_options(arguments: dict[str, Any]) -> ClipOptions:
+def given_clip_options(arguments: dict[str, Any]) -> ClipOptions:
     """The choices that were given, out of a command's keyword arguments."""
     named = {name: arguments[f"clip_{name}"] for name in ClipOptions.model_fields}
     return ClipOptions.of({name: value for name, value in named.items() if value is not None})
@@ -41,7 +52,7 @@ def clip_options(arguments: dict[str, Any]) -> ClipOptions:
 
 def given_parameters(arguments: dict[str, Any]) -> dict[str, str]:
     """The parameters that were given, out of a command's keyword arguments."""
-    return {name: arguments[name] for name in Parameters.model_fields if arguments[name] is not None}
+    return {name: arguments[name] for name in Parameters.model_fields if arguments.get(name) is not None}
 
 
 def with_dashes(token: str) -> str:
@@ -54,7 +65,13 @@ def _option(name: str, field: FieldInfo) -> Callable[[Callable[..., Any]], Calla
     if field.annotation is bool:
         return click.option(f"{flag}/--no-{flag[2:]}", name, default=None, help=field.description)
     default = f"{field.description}  [default: {field.default}]"
-    return click.option(flag, name, metavar=_metavar(field.annotation), help=default)
+    metavar = _metavar(field.annotation)
+    words = [word for word in metavar.split("|") if not word.isupper()]
+
+    def complete(_: click.Context, __: click.Parameter, begun: str) -> list[CompletionItem]:
+        return [CompletionItem(word) for word in words if word.startswith(begun)]
+
+    return click.option(flag, name, metavar=metavar, help=default, shell_complete=complete)
 
 
 def _metavar(annotation: Any) -> str:

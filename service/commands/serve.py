@@ -5,11 +5,12 @@ from typing import Any
 import click
 from pydantic import ValidationError
 
+from caesura.client.errors import Unreachable
 from caesura.core.errors import ParameterError
-from caesura.service.commands.problems import Command, Unreachable
+from caesura.service.commands.exit_codes import Command
 
 
-@click.command(cls=Command)
+@click.command(cls=Command, short_help="Run the service, its workers and Redis.")
 @click.option("--host", help="Address to listen on.  [default: CAESURA_HOST, else 127.0.0.1]")
 @click.option(
     "--port", type=click.IntRange(0, 65535), help="Port; 0: any free one.  [default: CAESURA_PORT, else 8000]"

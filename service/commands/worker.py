@@ -2,10 +2,10 @@
 
 import click
 
-from caesura.service.commands.problems import Command
+from caesura.service.commands.exit_codes import Command
 
 
-@click.command(cls=Command)
+@click.command(cls=Command, short_help="Run workers alone.")
 @click.option("--queues", multiple=True, metavar="NAME,...", help="One worker that takes from these; may be repeated.")
 @click.option("--check", is_flag=True, help="End at once: 0 where a worker of this machine is alive, 1 where none is.")
 def worker(queues: tuple[str, ...], check: bool) -> None:

@@ -5,7 +5,7 @@ import time
 from types import TracebackType
 from typing import Self
 
-from caesura.core.control_characters import escape_control_characters
+from caesura.worker.control_characters import escape_control_characters
 
 WIDTH = 30
 BETWEEN_SECONDS = 0.1  # redrawn no oftener: a terminal over a slow line must not hold the work up

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-from caesura.core.control_characters import escape_control_characters
 from caesura.core.segmentation_document import SegmentationDocument
+from caesura.worker.control_characters import escape_control_characters
 
 
 def print_table(name: str, found: SegmentationDocument) -> str:
