@@ -1,94 +1,76 @@
 // The page: what leads from one of its views to another, and every control of a result, wired once.
 
-import { showView, frameInAddress, showProblem, rememberFrame, resultInAddress, revisionInAddress } from './views.js';
+import { collectionInAddress, showView, frameInAddress, showProblem, showRefusal, rememberFrame, resultInAddress, lookOnly } from './views.js';
 import * as api from './service/api.js';
-import { addSegmentationForm, showFormNote, offerMethods, resegment } from './panels/segmentation_form.js';
-import { $, announce } from './dom.js';
-import { resetProgress, showStage, showStatus } from './start/progress.js';
-import { showRecent } from './start/recent_animations.js';
-import { Result } from './result.js';
+import { addFormNote, addSegmentationForm, showFormNote, offerMethods, resegment } from './panels/segmentation_form.js';
+import { $, announce, make } from './dom.js';
+import { Opening } from './start/opening.js';
+import { addBatch, BATCH_ADDRESS, showBatch, startBatch } from './start/batch.js';
+import { groupFiles } from './start/file_groups.js';
+import { addDemonstration, showDemonstration } from './start/demonstration.js';
+import { addSamples } from './start/samples.js';
+import { CollectionView, makeCollection } from './collection/collection_view.js';
+import { addRecent, showRecent } from './start/recent_animations.js';
+import { showCollections } from './start/recent_collections.js';
+import { Result } from './result_view.js';
 import { takeSummary, count } from './number_format.js';
 import { acceptFiles } from './start/file_drop.js';
-import { waitUntilDone } from './service/job_status.js';
 import { addEditToolbar } from './editing/edit_toolbar.js';
+import { offerLoop, playLoop } from './editing/segment_loop.js';
+import { showEditedResults } from './editing/edited_results.js';
 import { addKeyboard } from './keyboard.js';
 import { addReviewTools } from './panels/cut_review.js';
 import { addExportMenu } from './panels/export_menu.js';
+import { addExportPanel } from './panels/export_panel.js';
 import { openRevision, addRevisionList, showRevisions } from './panels/revision_list.js';
 import { addSegmentList } from './panels/segment_list.js';
+import { addSharing, showLookOnly } from './panels/share.js';
+import { addLabelTrack } from './labels/label_track.js';
+import { addTakeMenu, showTakes } from './panels/take_menu.js';
+import { addComparison } from './timeline/comparison.js';
 import { addTabs } from './roving_focus.js';
 import { addPlayerControls, addViewControls } from './timeline/navigation.js';
 
-let shown = null; // the Result on screen
-let task = new AbortController(); // the current task; a newer one ends it
+let shown = null; // the Result on screen, or the one to go back to
 
-function begin() {
-  task.abort();
-  task = new AbortController();
-  return task.signal;
-}
+const opening = new Opening({ show, refuse, leave: () => goTo('/') });
 
-/** Show the waiting view. Answers the signal that ends the wait. `cancel()` is what the button does beside leaving. */
-function wait(name, cancel = async () => {}) {
-  const signal = begin();
-  $('subject').textContent = '';
-  resetProgress(name);
-  showView('waiting', name);
-  onCancel(cancel);
-  return signal;
-}
+const goTo = (address) => { history.pushState(null, '', address); route(); };
+const addressOf = ({ document, playhead }) => `/view/${document.id}#frame=${playhead.frame}`;
 
-function onCancel(cancel) {
-  $('waiting-cancel').onclick = () => cancel().finally(() => { history.pushState(null, '', '/'); route(); });
-}
-
-/** Upload files, have them segmented, show the result. */
+/** Open what a person gave: the files of one animation, or several animations as a batch. On a collection they are added to it. */
 async function openFiles(files) {
+  if (document.body.dataset.view === 'collection') return collection.add(await groupFiles(files));
   if (!(await leave())) return;
-  const { name } = files[0];
-  const signal = wait(name);
-  try {
-    showStage('upload', 0);
-    const animation = await api.upload(files, (share) => showStage('upload', share), signal);
-    await openSegmentation(await api.segment(animation.id), signal);
-  } catch (problem) { showProblem(problem, name, () => openFiles(files)); }
+  const groups = await groupFiles(files);
+  if (groups.length < 2) return opening.files(groups[0]);
+  clear();
+  startBatch(count(groups.length, 'file'), groups.map((group) => ({
+    name: group[0].name,
+    send: async (onShare) => api.segment((await api.upload(group, onShare)).id),
+  })));
 }
 
-/** Open an animation of before: its newest segmentation that is done or on its way, else a new one. */
-async function openAnimation(animation) {
-  const { id, name } = animation;
-  const signal = wait(name);
-  try {
-    const { segmentations } = await api.segmentationsOf(id);
-    const being = (...states) => segmentations.find(({ status }) => states.includes(status));
-    await openSegmentation(being('done') || being('queued', 'running') || await api.segment(id), signal);
-  } catch (problem) { showProblem(problem, name, () => openAnimation(animation)); }
+/** Show a take of the animation on screen, or `all` of them. */
+async function openTake(take) {
+  const { status, document } = shown;
+  if (!(await leave())) return showTakes(status.animation, document.source);
+  opening.segmentation(status.animation, status.name, { ...document.parameters, take, motions: 'auto' });
 }
 
-async function openSegmentation({ id }, signal) {
-  if (signal.aborted) return;
-  history.pushState(null, '', `/view/${id}`);
-  await follow(id, signal);
-}
-
-/** Wait until a segmentation is done, then show it. */
-async function follow(id, signal) {
-  const status = await waitUntilDone(id, (now) => {
-    if (now.status === 'running') import('./figure/scene.js'); // needed soon: fetched while we wait
-    if (now.name) $('waiting-name').textContent = now.name;
-    onCancel(now.status === 'done' ? async () => {} : () => api.cancel(id).catch(() => {})); // to cancel a finished segmentation would delete it
-    showStatus(now);
-  }, signal);
-  const viewer = api.viewer(id); // fetched beside the result, as the figure takes longest
-  viewer.catch(() => {}); // the figure panel shows the problem
-  const result = await api.result(id, revisionInAddress() ?? status.revision);
-  if (!signal.aborted) show(result, status, viewer);
+function openTakes(takes) {
+  const { status: { animation, name }, document: { parameters } } = shown;
+  clear();
+  startBatch(`${name}, ${count(takes.length, 'take')}`, takes.map(({ index, name: take }) => ({
+    name: take, send: () => api.segment(animation, { ...parameters, take: index, motions: 'auto' }),
+  })));
 }
 
 function show(result, status, viewer) {
   shown?.close();
   showFormNote('');
   showView('result', status.name);
+  showLookOnly();
   $('subject').textContent = [status.name, takeSummary(result)].filter(Boolean).join(' · ');
   $('result-title').textContent = status.name;
   announce(`${status.name}: ${count(result.motions, 'motion')} in ${count(result.segments.length, 'segment')}.`);
@@ -98,7 +80,21 @@ function show(result, status, viewer) {
   if (frame !== null) shown.playhead.seek(frame);
   shown.playhead.listen(rememberFrame);
   shown.figurePanel.open(result.id, viewer);
+  showTakes(status.animation, result.source);
   changed();
+}
+
+/** Say why there is no result. A result that was on screen before comes back. */
+function refuse(problem, name, again) {
+  if (!shown || problem.name === 'AbortError') return showProblem(problem, name, again);
+  history.pushState(null, '', addressOf(shown));
+  showResultAgain();
+  showRefusal(problem, name);
+}
+
+function showResultAgain() {
+  showView('result', shown.status.name);
+  $('subject').textContent = [shown.status.name, takeSummary(shown.document)].filter(Boolean).join(' · ');
 }
 
 /** Whether the page may leave the result on screen: open edits are saved first. */
@@ -111,58 +107,85 @@ async function leave() {
 /** Show what the address asks for. */
 async function route() {
   const id = resultInAddress();
-  if (id && id === onScreen()?.document.id) return;
-  if (!(await leave())) return history.pushState(null, '', `/view/${shown.document.id}#frame=${shown.playhead.frame}`);
-  if (!id) return start();
-  const signal = wait('');
-  try { await follow(id, signal); } catch (problem) { showProblem(problem, '', route); }
+  if (id && id === shown?.document.id && document.body.dataset.view === 'result') return;
+  if (!(await leave())) return history.pushState(null, '', addressOf(shown));
+  if (id) { collection.close(); return opening.address(id, route); }
+  opening.begin();
+  clear();
+  const wanted = collectionInAddress();
+  if (wanted) return collection.open(wanted).catch((problem) => showProblem(problem, '', route));
+  if (location.hash === new URL(BATCH_ADDRESS, location).hash && showBatch()) return;
+  showView('start');
+  showRecent();
+  showCollections((chosen) => goTo(`/collection/${chosen}`));
+  showDemonstration(true);
 }
 
-function start() {
-  begin();
-  $('subject').textContent = '';
-  showView('start');
+/** Leave the result, or the collection, for good. */
+function clear() {
+  collection.close();
   shown?.close();
   shown = null;
-  showRecent(openAnimation);
+  $('subject').textContent = '';
+  for (const id of ['takes', 'take-place']) $(id).hidden = true;
 }
 
 /** Wire every control of the result. Answers a function to call whenever what is shown has changed. */
 function wire() {
   addPlayerControls(onScreen);
   addViewControls(onScreen);
+  addComparison(onScreen);
+  addLabelTrack(() => onScreen()?.labelTrack);
+  addSharing(() => ({ id: shown.document.id, revision: shown.editor.saving.shown, frame: shown.playhead.frame }));
   const showTab = addTabs($('tabs'));
-  addSegmentList();
+  addSegmentList(onScreen);
   addRevisionList();
   addReviewTools(() => { showTab('tab-review'); return onScreen()?.review; });
+  addTakeMenu({ open: openTake, batch: openTakes });
   addKeyboard(onScreen);
   const editor = () => onScreen()?.editor;
   const open = (number, dropping) => openRevision(shown, number, dropping);
   const showEdits = addEditToolbar(editor, { loadTheirs: () => open(editor().saving.theirs, true) });
-  const showLinks = addExportMenu(() => {
+  $('play-loop').addEventListener('click', () => playLoop(shown));
+  const exported = () => {
     if (!editor()) return null;
-    const { saving } = editor();
-    return { id: shown.document.id, name: shown.status.name, revision: saving.shown, dirty: saving.open, keep: () => saving.flush() };
-  });
+    const { saving, segments, affected } = editor();
+    return { id: shown.document.id, revision: saving.shown, dirty: saving.open, keep: () => saving.flush(), segments, affected };
+  };
+  const showLinks = addExportMenu(exported);
+  addExportPanel(exported);
   addEventListener('beforeunload', (event) => { if (editor()?.saving.open) event.preventDefault(); });
   addEventListener('visibilitychange', () => { if (document.hidden && editor()?.saving.kind === 'waiting') editor().saving.flush().catch(() => {}); });
   let listed = '';
   return () => {
     if (!editor()) return;
     showEdits();
+    offerLoop(shown);
     showLinks();
     const { saving } = editor();
     const state = `${shown.document.id} ${saving.shown} ${saving.newest}`;
     if (state === listed) return;
     listed = state;
     showRevisions(shown.document.id, saving.shown, open);
-    if (location.search && saving.shown === saving.newest) history.replaceState(null, '', location.pathname + location.hash);
+    showEditedResults(shown.status.animation, shown.document, { open: (id) => goTo(`/view/${id}`), offer: offerEdits });
+    if (location.search && !lookOnly() && saving.shown === saving.newest) history.replaceState(null, '', location.pathname + location.hash);
   };
 }
 
+/** Say that the same take is edited elsewhere, and offer to go there. */
+function offerEdits({ id, motions }) {
+  addFormNote(`You have edited this take with ${count(motions, 'motion')} before. `,
+    make('button', { type: 'button', onclick: () => goTo(`/view/${id}`) }, 'Show the edits'));
+}
+
+const collection = new CollectionView(goTo);
 const onScreen = () => (document.body.dataset.view === 'result' ? shown : null);
 const changed = wire();
-addSegmentationForm({ resegment: (changes) => resegment(shown, changes, begin()), current: () => shown.document });
+addSegmentationForm({ resegment: (changes) => resegment(shown, changes, opening.begin()), current: () => shown });
+addRecent((animation) => opening.animation(animation));
+addSamples(openFiles);
+addDemonstration();
+addBatch({ open: (id) => goTo(`/view/${id}`), together: async (animations) => goTo(await makeCollection(animations)) });
 acceptFiles(openFiles);
 addEventListener('popstate', route);
 addEventListener('hashchange', () => { const frame = frameInAddress(); if (frame !== null) shown?.playhead.seek(frame); });

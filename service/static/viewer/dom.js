@@ -34,6 +34,17 @@ export function onResize(element, listener, signal) {
   signal?.addEventListener('abort', () => observer.disconnect());
 }
 
+/** Call back once, when an element is first seen, unless `signal` ends it before. */
+export function onFirstSeen(element, listener, signal) {
+  const observer = new IntersectionObserver((entries) => {
+    if (!entries.some(({ isIntersecting }) => isIntersecting)) return;
+    observer.disconnect();
+    listener();
+  });
+  observer.observe(element);
+  signal?.addEventListener('abort', () => observer.disconnect());
+}
+
 /** At most one call a screen frame, however often it is asked for. */
 export function oncePerFrame(action) {
   let asked = false;

@@ -1,7 +1,9 @@
 // The keys of the page, and the list of them on `?`. A key that types into a field belongs to the field.
 
 import { $, make } from './dom.js';
-import { goToNeighbour } from './timeline/navigation.js';
+import { compareNext } from './timeline/comparison.js';
+import { goToKeyFrame } from './timeline/key_frames.js';
+import { goToNeighbour, zoomToSegment } from './timeline/navigation.js';
 
 /** Every key, by groups: how the list shows it, what it does in words, and the actions by the names of keys. */
 function keyTable(shown) {
@@ -16,6 +18,7 @@ function keyTable(shown) {
   const zoom = (factor) => shown().range.zoom(factor, shown().playhead.frame);
   const merge = (event) => shown().editor.merge(event.shiftKey);
   const click = (id) => () => $(id).click();
+  const side = (name) => () => shown().figurePanel.scene?.lookFrom(name);
   return [
     ['Play', [
       ['Space', 'play or pause', { ' ': () => shown().playhead.toggle() }],
@@ -24,30 +27,37 @@ function keyTable(shown) {
       }],
       ['Home End', 'go to the first or last frame', { Home: () => goTo(0), End: () => goTo(shown().playhead.frames - 1) }],
       [', .', 'go to the segment before or after', { ',': () => goToNeighbour(shown(), -1), '.': () => goToNeighbour(shown(), 1) }],
+      ['J K', 'go to the key-frame before or after', { j: () => goToKeyFrame(shown(), -1), k: () => goToKeyFrame(shown(), 1) }],
       ['L', 'repeat the segment', { l: click('loop') }],
     ]],
     ['Cuts', [
       ['[ ]', 'select the cut before or after', { '[': () => shown().editor.selectNext(-1), ']': () => shown().editor.selectNext(1) }],
       ['← →', 'move the selected cut one frame; with Shift ten', {}],
+      ['Ctrl drag', 'snap the cut to key-frames and low points of the curve', {}],
       ['M Del', 'remove the cut; with Shift, keep the motion after it', { m: merge, Delete: merge, Backspace: merge }],
-      ['Esc', 'select no cut', { Escape: () => shown().editor.select(-1) }],
+      ['Esc', 'select no cut, and no segments', { Escape: () => { shown().editor.select(-1); shown().editor.chooseOnly([]); } }],
       ['S', 'split the segment at the playhead', { s: () => shown().editor.split() }],
     ]],
     ['Segments', [
+      ['Shift ↑ ↓', 'in the list, choose several segments', {}],
       ['R', 'rename the motion', { r: () => { $('motion-name').focus(); $('motion-name').select(); } }],
       ['O', 'mark the clip as a loop', { o: () => shown().editor.toggleFlag('loop') }],
       ['X', 'discard the segment', { x: () => shown().editor.toggleFlag('discard') }],
       ['Ctrl Z', 'undo', {}], ['Ctrl Shift Z', 'redo', {}],
     ]],
     ['Review', [
-      ['N', 'go to the next doubtful cut', { n: click('doubtful') }],
+      ['N', 'go to the next doubtful or missing cut', { n: click('doubtful') }],
       ['P', 'play one second around the cut', { p: click('around') }],
       ['C', 'mark the cut as checked and go on', { c: click('checked') }],
     ]],
     ['View', [
       ['+ −', 'zoom in or out', { '+': () => zoom(1.6), '=': () => zoom(1.6), '-': () => zoom(1 / 1.6) }],
       ['0', 'show the whole take', { 0: () => shown().range.showAll() }],
+      ['Z', 'show the segment alone', { z: () => zoomToSegment(shown()) }],
       ['F', 'show the whole figure', { f: click('reframe') }],
+      ['1 2 3', 'look from the front, from the side, from above', { 1: side('front'), 2: side('side'), 3: side('top') }],
+      ['V', 'compare the repeats of the motion: side by side, overlaid, not', { v: compareNext }],
+      ['G', 'show the poses of the key-frames too', { g: click('ghosts') }],
       ['?', 'show these keys', {}],
     ]],
   ];

@@ -1,12 +1,13 @@
 // Values that this browser keeps for the page. A browser that stores nothing is no fault: the page then uses the defaults.
 
-export function stored(key, otherwise = null) {
+/** The value of a key; `storage` is that of the browser, or that of the tab. */
+export function stored(key, otherwise = null, storage = globalThis.localStorage) {
   try {
-    const text = localStorage.getItem(key);
+    const text = storage.getItem(key);
     return text === null ? otherwise : JSON.parse(text);
   } catch { return otherwise; }
 }
 
-export function store(key, value) {
-  try { localStorage.setItem(key, JSON.stringify(value)); } catch { /* private window, or full */ }
+export function store(key, value, storage = globalThis.localStorage) {
+  try { storage.setItem(key, JSON.stringify(value)); } catch { /* private window, or full */ }
 }

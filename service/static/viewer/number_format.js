@@ -31,9 +31,9 @@ export const takeSummary = (document) => [
   document.source.name, count(document.frames, 'frame'), rate(document.frame_rate), duration(document.duration_seconds),
 ].filter(Boolean).join(' · ');
 
-/** How long ago a moment was, given in seconds since 1970. */
+/** How long ago a moment was, given as RFC 3339 has it. */
 export function ago(created) {
-  const seconds = Date.now() / 1000 - created;
+  const seconds = (Date.now() - Date.parse(created)) / 1000;
   if (seconds < JUST) return 'just now';
   const [unit, size] = STEPS.findLast(([, length]) => seconds >= length) || STEPS[0];
   return AGO.format(-Math.max(1, Math.round(seconds / size)), unit);

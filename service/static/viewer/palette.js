@@ -18,31 +18,32 @@ const luminance = (hex) => {
 export const motionColour = (motion) => COLOURS[motion % COLOURS.length];
 
 /** Black or white, whichever is read more easily on the colour. */
-export const inkOver = (hex) => (luminance(hex) > 0.179 ? '#14161a' : '#ffffff');
+export const inkOver = (hex) => (luminance(hex) > 0.179 ? '#000000' : '#ffffff');
 
 /** Which texture goes over the colour: 0 none, 1 stripes, 2 dots, 3 both ways striped, then again. */
-const textureNumber = (motion) => Math.floor(motion / COLOURS.length) % 4;
+export const textureNumber = (motion) => Math.floor(motion / COLOURS.length) % 4;
 
 const tiles = new Map();
 
 /** A canvas fill of a motion: its colour and, from the thirteenth motion on, its texture. */
-export function motionFill(motion, context) {
-  if (!textureNumber(motion)) return motionColour(motion);
-  return context.createPattern(tileOf(motion), 'repeat');
+export const motionFill = (motion, context) => texturedFill(motionColour(motion), textureNumber(motion), context);
+
+/** A canvas fill of a colour, with a texture over it unless its number is 0. */
+export const texturedFill = (colour, texture, context) => (texture ? context.createPattern(tileOf(colour, texture), 'repeat') : colour);
+
+function tileOf(colour, texture) {
+  const key = `${colour} ${texture}`;
+  if (!tiles.has(key)) tiles.set(key, drawTile(colour, texture));
+  return tiles.get(key);
 }
 
-function tileOf(motion) {
-  if (!tiles.has(motion)) tiles.set(motion, drawTile(motion, textureNumber(motion)));
-  return tiles.get(motion);
-}
-
-function drawTile(motion, texture) {
+function drawTile(colour, texture) {
   const tile = document.createElement('canvas');
   tile.width = tile.height = 12;
   const context = tile.getContext('2d');
-  context.fillStyle = motionColour(motion);
+  context.fillStyle = colour;
   context.fillRect(0, 0, 12, 12);
-  context.strokeStyle = context.fillStyle = inkOver(motionColour(motion));
+  context.strokeStyle = context.fillStyle = inkOver(colour);
   context.globalAlpha = 0.45;
   context.lineWidth = 2;
   const stroke = (points) => { context.beginPath(); points.forEach(([x, y], i) => (i % 2 ? context.lineTo(x, y) : context.moveTo(x, y))); context.stroke(); };
@@ -53,13 +54,16 @@ function drawTile(motion, texture) {
 }
 
 /** The same fill for lists; the style sheet draws the textures. */
-export function motionSwatch(motion) {
+export const motionSwatch = (motion) => swatchOf(motionColour(motion), textureNumber(motion));
+
+/** A mark of a colour with a texture. */
+export function swatchOf(colour, texture) {
   const mark = document.createElement('i');
   mark.className = 'swatch';
   mark.setAttribute('aria-hidden', 'true');
-  mark.style.backgroundColor = motionColour(motion);
-  mark.dataset.texture = textureNumber(motion);
-  mark.style.color = inkOver(motionColour(motion));
+  mark.style.backgroundColor = colour;
+  mark.dataset.texture = texture;
+  mark.style.color = inkOver(colour);
   return mark;
 }
 

@@ -6,32 +6,43 @@ import { onFrameNumbering } from './number_format.js';
 import { EnergyCurve } from './timeline/energy_curve.js';
 import { $ } from './dom.js';
 import { Editor } from './editing/editor.js';
-import { showPair, showCounts, showMoment, showTake } from './panels/status.js';
+import { showPoseLabels, showCounts, showMoment, showTake } from './panels/status.js';
+import { KeyFrameList } from './panels/key_frame_list.js';
 import { SegmentList } from './panels/segment_list.js';
 import { writeTag } from './palette.js';
 import { FigurePanel } from './figure/figure_panel.js';
+import { ShownPoses } from './figure/shown_poses.js';
 import { CutReview } from './panels/cut_review.js';
 import { segmentIndexAt } from './editing/segment_edits.js';
 import { VisibleRange } from './timeline/visible_range.js';
 import { SegmentTrack } from './timeline/segment_track.js';
+import { Overview } from './timeline/overview.js';
+import { Thumbnails } from './figure/thumbnails.js';
+import { LabelTrack } from './labels/label_track.js';
+import { lookOnly } from './views.js';
 import { TimelinePointer } from './timeline/pointer.js';
 import { goToSegment, repeatSegment } from './timeline/navigation.js';
 
 export class Result {
-  #closing = new AbortController(); #pointer; #segment = -1; #list; #onChange; #editing = null;
+  #closing = new AbortController(); #pointer; #segment = -1; #loop = null; #list; #keyFrames; #onChange; #editing = null; #shown = new ShownPoses(this);
 
   /** Show `document` for the first time; `status` is its status document. `onChange()` is called after every edit. */
   constructor(document, status, onChange) {
     const { signal } = this.#closing;
     this.#onChange = onChange;
-    this.figurePanel = new FigurePanel(() => this.#poses(), signal);
+    this.figurePanel = new FigurePanel(this.#shown, signal, () => this.thumbnails.resume());
     this.playhead = new Playhead(document.frames, document.frame_rate, (frame) => this.figurePanel.ready(frame));
     this.playhead.speed = Number($('speed').value);
     this.range = new VisibleRange(document.frames);
-    this.#list = new SegmentList((index) => goToSegment(this, index));
     this.#setDocument(document);
+    this.thumbnails = new Thumbnails(() => this.figurePanel.scene, () => this.playhead.playing, signal);
+    this.#list = new SegmentList(this);
+    this.#keyFrames = new KeyFrameList(this, signal);
     this.curve = new EnergyCurve($('curve'), document, this.range, signal);
-    this.segmentTrack = new SegmentTrack($('timeline'), document, this.range, () => this.curve.plot, signal);
+    const picture = (frame, whenDrawn) => this.thumbnails.of(frame, whenDrawn);
+    this.segmentTrack = new SegmentTrack($('timeline'), document, this.range, () => this.curve.plot, picture, signal);
+    this.overview = new Overview($('overview'), document, this.range, () => this.curve.plot, signal);
+    this.labelTrack = new LabelTrack(document, this.range, () => this.curve.plot, signal);
     this.#pointer = new TimelinePointer(this, signal);
     this.#startEditing(document, status);
     this.playhead.listen(() => (this.#hasLeftCut() ? this.editor.select(-1) : this.#showMoment()));
@@ -44,6 +55,8 @@ export class Result {
     this.#setDocument(document);
     this.curve.show(document);
     this.segmentTrack.show(document);
+    this.overview.show(document);
+    this.labelTrack.show(document);
     this.#startEditing(document, status);
   }
 
@@ -52,7 +65,10 @@ export class Result {
     this.#setDocument(document);
     this.curve.edited(document);
     this.segmentTrack.show(document);
+    this.overview.show(document);
+    this.labelTrack.show(document);
     this.#list.show(document);
+    this.#keyFrames.show(document);
     showCounts(document);
     this.#showMoment();
   }
@@ -63,11 +79,27 @@ export class Result {
     this.#showMoment();
   }
 
+  /** Segments are chosen: the indices of those that edits are for. */
+  chosen(indices) {
+    this.#list.choose(indices);
+    this.segmentTrack.select(indices);
+  }
+
+  goToSegment(index) {
+    this.editor.chooseOnly([]);
+    goToSegment(this, index);
+  }
+
+  /** Choose all segments from the current one to the one whose row has the focus. */
+  chooseToFocus() { if (this.#list.focused >= 0) this.editor.chooseTo(this.#list.focused); }
+
+  arrangeList(by) { this.#list.arrange(by); }
+
   /** Leave the page to another take. */
   close() {
     this.playhead.toggle(false);
     this.editor.close();
-    showPair(null);
+    showPoseLabels(null);
     this.#editing.abort();
     this.#closing.abort();
   }
@@ -95,12 +127,13 @@ export class Result {
     this.#editing?.abort();
     this.#editing = new AbortController();
     this.editor?.close();
-    this.editor = new Editor(this, { newest: status.revision, onChange: () => { this.review.show(); this.#pointer.place(); this.#onChange(); } });
-    this.review = new CutReview(document.id, this.editor, this.playhead, this.range, this.#editing.signal);
+    this.editor = new Editor(this, { newest: status.revision, fixed: lookOnly(), onChange: () => { this.review.show(); this.#pointer.place(); this.#onChange(); } });
+    this.review = new CutReview(document, this.editor, this.playhead, this.range, this.#editing.signal);
     showTake(document);
     showCounts(document);
     this.#list.show(document);
-    showParameters(document);
+    this.#keyFrames.show(document);
+    showParameters(document, status.motions);
     this.review.show();
     this.selected(-1);
     this.#onChange();
@@ -113,26 +146,8 @@ export class Result {
     this.#showMoment();
   }
 
-  /** The segments on both sides of the selected cut, while they are compared; else null. */
-  get #pair() {
-    const { cut } = this.editor;
-    return cut >= 0 && !this.playhead.playing ? this.document.segments.slice(cut, cut + 2) : null;
-  }
-
-  /** The poses of the figure: the current one, or those on both sides of the selected cut. */
-  #poses() {
-    const { playhead } = this;
-    if (this.#pair) {
-      const [before, after] = this.#pair;
-      return [{ position: before.end - 1, motion: before.motion }, { position: after.start, motion: after.motion }];
-    }
-    // Paused: the frame's own pose. Playing: between two frames too, so that it is smooth on a fast screen.
-    const { motion } = this.document.segments[this.segmentIndexAt(playhead.frame)];
-    return [{ position: playhead.playing ? playhead.position : playhead.frame, motion }];
-  }
-
   /** Whether the playhead has left the selected cut. Playing around a cut does not leave it. */
-  #hasLeftCut() { return this.#pair !== null && this.playhead.frame !== this.#pair[0].end; }
+  #hasLeftCut() { return this.#shown.pair !== null && this.playhead.frame !== this.#shown.pair[0].end; }
 
   /** Show the current frame: the playhead has moved, or what is around it has changed. */
   #showMoment() {
@@ -142,7 +157,11 @@ export class Result {
     if (!playhead.loop && !playhead.until && $('loop').checked) repeatSegment(this, true);
     this.#pointer.place();
     if (index !== this.#segment) this.#enterSegment(index);
-    showMoment(this, this.document.segments[index], this.#pair);
+    if (playhead.loop !== this.#loop) {
+      this.#loop = playhead.loop;
+      this.#onChange();
+    }
+    showMoment(this, this.document.segments[index], this.#shown.labels);
     this.figurePanel.show();
   }
 

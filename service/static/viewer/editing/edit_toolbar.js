@@ -49,7 +49,12 @@ export function addEditToolbar(editor, { loadTheirs }) {
 }
 
 function showSegment(editor, evenFocused) {
-  const segment = editor.segments[editor.currentIndex];
+  const affected = editor.affected.map((index) => editor.segments[index]);
+  const [segment] = affected;
+  const several = editor.chosen.size > 1;
+  $('chosen-count').textContent = several ? `${editor.chosen.size} segments` : '';
+  $('split').hidden = several;
+  $('one-clip').textContent = several ? 'Save clips' : 'Save clip';
   const name = $('motion-name');
   if (evenFocused || name !== document.activeElement) name.value = segment.name;
   name.style.setProperty('--motion', motionColour(segment.motion));
@@ -62,15 +67,14 @@ function showSegment(editor, evenFocused) {
       make('option', { value: NEW }, 'is a new motion'));
   }
   select.value = segment.motion;
-  $('flag-loop').setAttribute('aria-pressed', String(Boolean(segment.loop)));
-  $('flag-discard').setAttribute('aria-pressed', String(Boolean(segment.discard)));
+  for (const flag of ['loop', 'discard']) $(`flag-${flag}`).setAttribute('aria-pressed', String(affected.every((one) => one[flag])));
 }
 
 function showCut(editor, evenFocused) {
   const { cut, segments } = editor;
   const none = cut < 0;
-  for (const tool of document.querySelectorAll('.of-cut')) tool.disabled = none;
-  $('cut-title').textContent = none ? 'no cut selected' : `${segments[cut].name} | ${segments[cut + 1].name}`;
+  $('cut-title').textContent = none ? '' : `${segments[cut].name} | ${segments[cut + 1].name}`;
+  for (const id of ['cut-before', 'cut-after']) $(id).disabled = segments.length < 2;
   const field = $('cut-frame');
   if (evenFocused || field !== document.activeElement) field.value = none ? '' : frameNumber(segments[cut].end);
   $('timeline').setAttribute('aria-description', none ? '' : `Cut at frame ${frameText(segments[cut].end)} selected. Arrows move it.`);
@@ -80,7 +84,7 @@ const WORDS = {
   waiting: () => 'Not saved yet',
   saving: () => 'Saving …',
   saved: (saving) => (saving.shown ? `Saved · revision ${saving.shown}` : 'As computed'),
-  failed: (saving) => `Not saved. ${saving.why}`,
+  failed: (saving) => `Not saved. ${saving.why}${saving.again ? ' The page tries again.' : ''}`,
   stale: (saving) => `Not saved: somebody else saved revision ${saving.theirs} first.`,
 };
 

@@ -1,6 +1,7 @@
 // Saving edits: the service gets one revision for all edits of a moment, and the page knows which edits are saved.
 
 import * as api from '../service/api.js';
+import { mayPass, pauseBefore } from '../service/retry.js';
 import { sameSegments } from './segment_edits.js';
 
 const QUIET = 600; // ms without another edit before they are sent
@@ -8,14 +9,19 @@ const LONGEST_NOTE = 200;
 
 /**
  * `kind` is `saved` (no edit is open), `waiting` (edits are not sent yet), `saving`, `failed` (`why` gives the reason) or
- * `stale` (somebody else has saved revision `theirs` since). `onState()` is called whenever it changes.
+ * `stale` (somebody else has saved revision `theirs` since). `onState()` is called whenever it changes. A save that failed for a
+ * reason that may pass is tried again by itself.
  */
 export class RevisionSaving {
-  #id; #onState; #kept; #wanted = null; #notes = []; #timer = 0; #sending = null;
+  #id; #onState; #onSaved; #kept; #wanted = null; #notes = []; #timer = 0; #sending = null; #failures = 0;
 
-  /** `segments` are those of revision `shown`; `newest` is the number an edit must be made against. */
-  constructor({ id, segments, shown, newest, onState }) {
-    Object.assign(this, { shown, newest, kind: 'saved', theirs: null, why: '' });
+  /**
+   * `segments` are those of revision `shown`; `newest` is the number an edit must be made against. `onSaved(segments)` is called
+   * with those of a new revision as the service has them.
+   */
+  constructor({ id, segments, shown, newest, onState, onSaved }) {
+    Object.assign(this, { shown, newest, kind: 'saved', theirs: null, why: '', again: false });
+    this.#onSaved = onSaved;
     this.#id = id;
     this.#kept = segments;
     this.#onState = onState;
@@ -60,12 +66,16 @@ export class RevisionSaving {
         this.#kept = segments;
         this.#notes = this.#notes.slice(notes.length);
         this.shown = this.newest = answer.revision;
+        this.#failures = 0;
+        if (this.#wanted === segments) this.#onSaved(answer.segments);
       } catch (problem) {
         if (problem.document?.status === 412) {
           this.theirs = problem.document.current ?? (await api.status(this.#id)).revision;
           this.#setKind('stale');
         } else {
           this.why = problem.message;
+          this.again = mayPass(problem);
+          if (this.again) this.#timer = setTimeout(() => this.flush().catch(() => {}), pauseBefore(this.#failures++));
           this.#setKind('failed');
         }
         throw problem;

@@ -1,7 +1,8 @@
 // Edits of a list of segments, as pure functions: each answers a new list, or the same one if nothing changes.
 //
 // The segments tile the take: segment i+1 starts where segment i ends. Cut i is the end of segment i; the last segment has no
-// cut. The confidence of a segment is that of its cut; it is null once a person has placed the cut. An edit of an end drops `repeats`.
+// cut. The confidence of a segment is that of its cut; it is null once a person has placed the cut. The repetitions of a segment
+// tile it, so they are fitted to an end that moves.
 
 const LETTERS = 26;
 
@@ -12,14 +13,17 @@ function renumbered(segments) {
   return segments.map((segment) => ({ ...segment, motion: numbers.get(segment.motion) }));
 }
 
-/** Move cut `index` to `frame`; both segments keep at least one frame. */
-export function moveCut(segments, index, frame) {
+/** Move cut `index` to `frame`; both segments keep at least `least` frames, or what they have. */
+export function moveCut(segments, index, frame, least = 1) {
   const before = segments[index];
   const after = segments[index + 1];
   if (!after) return segments;
-  const place = Math.max(before.start + 1, Math.min(after.end - 1, Math.round(frame)));
+  const lowest = Math.min(before.end, before.start + least);
+  const highest = Math.max(before.end, after.end - least);
+  const place = Math.max(lowest, Math.min(highest, Math.round(frame)));
   if (place === before.end) return segments;
-  return splice(segments, index, 2, { ...before, end: place, confidence: null, repeats: [] }, { ...after, start: place, repeats: [] });
+  return splice(segments, index, 2,
+    fitted({ ...before, end: place, confidence: null }), fitted({ ...after, start: place }));
 }
 
 /** Remove cut `index`. The merged segment has the motion before the cut, or the one after it. */
@@ -37,7 +41,25 @@ export function split(segments, frame) {
   const whole = segments[index];
   if (frame <= whole.start || frame >= whole.end) return segments;
   return splice(segments, index, 1,
-    { ...whole, end: frame, confidence: null, repeats: [] }, { ...whole, start: frame, repeats: [] });
+    fitted({ ...whole, end: frame, confidence: null }), fitted({ ...whole, start: frame }));
+}
+
+/** The same segment with its repetitions fitted to its frames: those that begin in it stay. */
+function fitted(segment) {
+  const { start, end, repeats } = segment;
+  if (!repeats.length) return segment;
+  const bounds = [start, ...repeats.slice(1).map((repeat) => repeat.start).filter((frame) => start < frame && frame < end), end];
+  return { ...segment, repeats: bounds.slice(1).map((to, i) => ({ start: bounds[i], end: to })) };
+}
+
+/** The same segments with the repetitions that the service found in those it has `saved`. */
+export function withRepeats(segments, saved) {
+  const found = new Map(saved.map((segment) => [`${segment.start} ${segment.end}`, segment.repeats]));
+  return segments.map((segment) => {
+    const repeats = found.get(`${segment.start} ${segment.end}`);
+    const same = !repeats || String(repeats.map(({ start }) => start)) === String(segment.repeats.map(({ start }) => start));
+    return same ? segment : { ...segment, repeats };
+  });
 }
 
 /** Call a motion `name` everywhere. The name of another motion joins the two. */
@@ -50,19 +72,32 @@ export function renameMotion(segments, motion, name) {
   return renumbered(segments.map((segment) => (segment.motion === motion ? { ...segment, motion: becomes, name: called } : segment)));
 }
 
-/** Make one segment another motion; null makes it one of its own. */
-export function assignMotion(segments, index, motion) {
-  if (segments[index].motion === motion) return segments;
+/** Make segments, by their indices, another motion; null makes them one of their own. */
+export function assignMotion(segments, indices, motion) {
   const known = segments.find((segment) => segment.motion === motion);
-  const name = known ? known.name : freeName(segments);
-  const number = known ? motion : 1 + Math.max(...segments.map((segment) => segment.motion));
-  return renumbered(splice(segments, index, 1, { ...segments[index], motion: number, name }));
+  return becomeMotion(segments, indices, known, known ? known.name : freeName(segments));
 }
 
-/** Set `loop` or `discard` of one segment. */
-export function setFlag(segments, index, flag, on) {
-  if (Boolean(segments[index][flag]) === on) return segments;
-  return splice(segments, index, 1, { ...segments[index], [flag]: on });
+/** Make segments the motion of a name, which there may be already. */
+export function nameSegments(segments, indices, name) {
+  if (!name) return segments;
+  return becomeMotion(segments, indices, segments.find((segment) => segment.name === name), name);
+}
+
+function becomeMotion(segments, indices, known, name) {
+  const motion = known ? known.motion : 1 + Math.max(...segments.map((segment) => segment.motion));
+  return changed(segments, indices, (segment) => segment.motion !== motion, { motion, name }, renumbered);
+}
+
+/** Set `loop` or `discard` of segments. */
+export const setFlag = (segments, indices, flag, on) => changed(segments, indices, (segment) => Boolean(segment[flag]) !== on, { [flag]: on });
+
+/** The segments with `values` in those of `indices` that `differ`; the same list where none does. */
+function changed(segments, indices, differ, values, finish = (list) => list) {
+  const wanted = new Set(indices);
+  const is = (segment, index) => wanted.has(index) && differ(segment);
+  if (!segments.some(is)) return segments;
+  return finish(segments.map((segment, index) => (is(segment, index) ? { ...segment, ...values } : segment)));
 }
 
 /** The result with other segments: each key-frame belongs to the motion that it is in now. */
@@ -85,6 +120,9 @@ export function segmentIndexAt(segments, frame) {
   }
   return low;
 }
+
+/** Seconds from the first pose of a segment to the first of the next; the last segment ends with the last pose of the take. */
+export const segmentSeconds = ({ frames, frame_rate: rate }, { start, end }) => (Math.min(end, frames - 1) - start) / rate;
 
 /** The motions there are, each once, in order. */
 export function motionsOf(segments) {

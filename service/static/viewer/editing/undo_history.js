@@ -22,6 +22,17 @@ export class UndoHistory {
   /** The next push is a step of its own, whatever its key. */
   endStep() { this.#key = null; }
 
+  /** Put `present` right without a step: nothing that a person did changes. */
+  amend(present) { this.present = present; }
+
+  /** Take back the last step if it has this `key`; it cannot be redone. */
+  drop(key) {
+    if (key !== this.#key) return false;
+    this.present = this.#past.pop();
+    this.#key = null;
+    return true;
+  }
+
   undo() { return this.#step(this.#past, this.#future); }
 
   redo() { return this.#step(this.#future, this.#past); }

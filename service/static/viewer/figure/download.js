@@ -4,15 +4,17 @@ import { BlockFile } from './block_file.js';
 
 /**
  * Fetch the files of a viewer document, until `signal` ends it. `model`: the bytes of a glTF, or the parts of a vertex
- * sequence; `strain`: its block file, or null. `onProgress` gets the share of a glTF that is fetched.
+ * sequence; `strain`: its block file, or null; `materials`: the bytes of a glTF of them, or null, asked for after the model.
+ * `onProgress` gets the share of a glTF that is fetched.
  */
 export function downloadFigure(viewer, signal, onProgress = () => {}) {
   const model = viewer.kind === 'gltf' ? download(viewer.model, signal, onProgress) : vertexSequence(viewer.model);
   model.catch(() => {}); // the caller handles it
-  return { model, strain: viewer.strain ? strainFile(viewer.strain) : null };
+  const materials = viewer.materials ? () => download(viewer.materials, signal) : null;
+  return { model, strain: viewer.strain ? strainFile(viewer.strain) : null, materials };
 }
 
-async function download(url, signal, onProgress) {
+async function download(url, signal, onProgress = () => {}) {
   const answer = await fetch(url, { signal });
   if (!answer.ok) throw new Error(`${url} answered ${answer.status}`);
   const length = Number(answer.headers.get('Content-Length'));

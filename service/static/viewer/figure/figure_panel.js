@@ -2,21 +2,24 @@
 
 import * as api from '../service/api.js';
 import { downloadFigure } from './download.js';
+import { isSoftware, probeRenderer } from './renderer_probe.js';
 import { $, nextPaint } from '../dom.js';
 import { motionColour } from '../palette.js';
 
 const LATE = 250; // ms after which the panel says that it waits for blocks
 const SOON = 1500; // ms until the panel asks again whether the figure is prepared
 
-const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i; // renderers without a graphics card
-
 let scene = null; // one for the page: a browser gives out few WebGL contexts
 
 export class FigurePanel {
-  #signal; #poses = () => []; #request = 0; #noteTimer = 0; #retryTimer = 0; #shown = false; #colouring = 'strain';
+  #signal; #poses; #whenShown; #request = 0; #noteTimer = 0; #retryTimer = 0; #shown = false; #colouring = 'own';
 
-  /** `poses()` lists what to show: one `{ position, motion }`, or two side by side. */
-  constructor(poses, signal) {
+  /**
+   * `poses` are the `ShownPoses`: its `poses` side by side, and its `ghosts` over them, seen through.
+   * `whenShown()` is called once the figure is there as its author made it.
+   */
+  constructor(poses, signal, whenShown = () => {}) {
+    this.#whenShown = whenShown;
     this.#poses = poses;
     this.#signal = signal;
     signal.addEventListener('abort', () => this.#leave());
@@ -29,14 +32,17 @@ export class FigurePanel {
 
   /** Show the figure of a segmentation; `asked` is the promise of its viewer document. Without a figure the rest of the page works. */
   async open(id, asked = api.viewer(id)) {
+    const failed = new AbortController(); // what is still on its way is not wanted, and says no more how far it is
+    const signal = AbortSignal.any([this.#signal, failed.signal]);
+    const progress = (share) => signal.aborted || this.#showProgress(share);
     try {
       this.showNote('Loading the figure …');
       await nextPaint(); // the person sees all else before the figure keeps the page busy
       const probe = probeRenderer(); // takes long, so it runs beside all else
-      const download = asked.then((viewer) => downloadFigure(viewer, this.#signal, (share) => this.#showProgress(share)));
+      const download = asked.then((viewer) => downloadFigure(viewer, signal, progress));
       const [viewer, files, { FigureScene }, renderer] = await Promise.all([asked, download, import('./scene.js'), probe]);
       if (this.#signal.aborted) return;
-      scene ||= new FigureScene($('figure'), SOFTWARE.test(renderer));
+      scene ||= new FigureScene($('figure'), isSoftware(renderer));
       await scene.show(viewer, files, this.#signal);
       if (this.#signal.aborted) return;
       this.#shown = true;
@@ -45,8 +51,11 @@ export class FigurePanel {
       this.#offerStrain(scene.strain);
       scene.canvas.dataset.shown = viewer.kind;
       this.show();
+      if (files.materials) await scene.dress(files.materials()).catch(() => {}); // their plain colours are there
+      this.#whenShown();
     } catch (problem) {
       if (this.#signal.aborted) return;
+      failed.abort();
       const soon = problem.document?.code === 'not-finished';
       this.showNote(soon ? 'The service still prepares the figure.' : `The page cannot show the figure: ${problem.message}`);
       if (soon) this.#retryTimer = setTimeout(() => this.open(id), SOON);
@@ -63,8 +72,9 @@ export class FigurePanel {
   show() {
     if (!this.#shown) return;
     const request = ++this.#request;
-    const poses = this.#poses().map(({ position, motion }) => ({ position, colouring: this.#colourOf(motion) }));
-    const missing = scene.pose(poses);
+    const poses = this.#poses.poses.map(({ position, motion, aligned }) => ({ position, aligned, colouring: this.#colourOf(motion) }));
+    const ghosts = this.#poses.ghosts.map(({ position, motion, aligned }) => ({ position, aligned, colouring: motionColour(motion) }));
+    const missing = scene.pose(poses, ghosts);
     if (!missing) return this.#clearNote();
     this.#noteTimer ||= setTimeout(() => this.showNote('Loading …'), LATE);
     missing.then(
@@ -73,9 +83,9 @@ export class FigurePanel {
     );
   }
 
-  /** The colouring of a motion, for `StrainShading.colourBy`. */
+  /** The colouring of a motion, for `SurfaceShading.colourBy`. */
   #colourOf(motion) {
-    if (this.#colouring === 'plain') return null;
+    if (this.#colouring === 'own') return null;
     return this.#colouring === 'motion' ? motionColour(motion) : 'strain';
   }
 
@@ -106,25 +116,14 @@ export class FigurePanel {
     this.showNote('');
   }
 
-  /** Offer strain and its legend; a figure without strain (joints alone, rigid parts) is coloured by motion. */
+  /** Offer strain and its legend; a figure without strain (joints alone, rigid parts) has its own colours. */
   #offerStrain({ present, gradient }) {
     const choice = (look) => document.querySelector(`#looks [value=${look}]`);
     choice('strain').parentElement.hidden = $('heat').hidden = !present;
     $('heat').querySelector('i').style.background = gradient;
     if (!present && choice('strain').checked) {
-      choice('motion').checked = true;
-      this.#colouring = 'motion';
+      choice('own').checked = true;
+      this.colourBy('own');
     }
   }
-}
-
-let renderer = null;
-
-/** Have a worker start WebGL, once; resolves to the name of the renderer, or to nothing if the worker fails. */
-function probeRenderer() {
-  renderer ??= new Promise((done) => {
-    const worker = new Worker(new URL('./webgl_probe.js', import.meta.url));
-    worker.onmessage = worker.onerror = ({ data }) => { worker.terminate(); done(data); };
-  });
-  return renderer;
 }

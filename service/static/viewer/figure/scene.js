@@ -1,26 +1,36 @@
 // The 3D scene: camera, light, floor and one figure in one pose, or in two side by side. It draws only after a change.
 
-import { DirectionalLight, Group, HemisphereLight, Scene, Vector3, WebGLRenderer } from 'three';
+import { MeshLambertMaterial, Scene, Vector3, WebGLRenderer } from 'three';
 import { FigureCamera } from './camera.js';
 import { onResize, onThemeChange, styleValue } from '../dom.js';
+import { skyEnvironment } from './environment.js';
 import { Floor } from './floor.js';
 import { createGltfFigure } from './gltf_figure.js';
-import { StrainShading } from './strain_shading.js';
+import { Light } from './light.js';
+import { setEdge, SurfaceShading } from './surface_shading.js';
 import { createVertexFigure } from './vertex_figure.js';
 
+const MIRRORED = 0.5; // of the light of the sky that shining materials mirror
+const GHOST = 0.3; // of what is behind a ghost it hides
 const FINEST = 2; // pixels to a CSS pixel; nobody sees more
 
 export class FigureScene {
   #renderer; #scene = new Scene(); #camera; #floor = new Floor(); #light = new Light(); #requested = false;
-  #middle = new Vector3(); #poses = []; #size = { width: 1, height: 1 };
+  #middle = new Vector3(); #anchor = new Vector3(); #shift = new Vector3(); #poses = []; #ghosts = []; #size = { width: 1, height: 1 }; #software;
 
-  /** `software`: the processor draws, so the picture has no anti-aliasing and one pixel for each CSS pixel. */
-  constructor(canvas, software) {
+  /**
+   * `software`: the processor draws, so the picture has no anti-aliasing and one pixel for each CSS pixel. `turns`: whether a
+   * person turns and moves the camera.
+   */
+  constructor(canvas, software, { turns = true } = {}) {
     this.canvas = canvas;
+    this.#software = software;
     this.figure = null;
-    this.strain = new StrainShading();
+    this.ghost = new MeshLambertMaterial({ transparent: true, opacity: GHOST });
+    this.strain = new SurfaceShading();
     this.#renderer = rendererOn(canvas, software);
-    this.#camera = new FigureCamera(canvas, () => this.draw());
+    this.#camera = new FigureCamera(canvas, () => this.draw(), turns);
+    if (!software) Object.assign(this.#scene, { environment: skyEnvironment(this.#renderer), environmentIntensity: MIRRORED });
     this.#scene.add(this.#light.object, this.#camera.camera, this.#floor.object);
     onResize(canvas.parentElement, () => this.#fit());
     onThemeChange(() => this.#theme());
@@ -35,8 +45,8 @@ export class FigureScene {
   /** Show the figure of a viewer document, from the `files` of `downloadFigure`, in place of the one before. */
   async show(viewer, files, signal) {
     const [model, colours] = await Promise.all([files.model, files.strain]);
-    const strain = new StrainShading(colours);
-    const figure = await (viewer.kind === 'gltf' ? createGltfFigure : createVertexFigure)(viewer, model, strain);
+    const strain = new SurfaceShading(colours);
+    const figure = await (viewer.kind === 'gltf' ? createGltfFigure : createVertexFigure)(viewer, model, strain, this.#software);
     if (signal.aborted) return figure.dispose();
     this.clear();
     this.strain = strain;
@@ -45,25 +55,34 @@ export class FigureScene {
     this.reframe();
   }
 
+  /** Put on the model's materials with their images, of the promise of their bytes. Without them it stays plainly coloured. */
+  async dress(materials) {
+    const { figure } = this;
+    await figure.dress(await materials);
+    if (figure === this.figure) this.draw();
+  }
+
   clear() {
     if (!this.figure) return;
     this.#scene.remove(this.figure.object);
     this.figure.dispose();
     this.strain.dispose();
     this.figure = null;
+    this.#shift.set(0, 0, 0);
     this.#poses = [];
     this.draw();
   }
 
   /**
-   * Show one pose, or two side by side: `{ position, colouring }` each, in frames and as in `StrainShading.colourBy`. The
-   * figure is posed when it is drawn, so that of many calls in one screen frame only the last costs anything. Answers null,
-   * or a promise of the blocks that must be fetched first.
+   * Show one pose, or two side by side: `{ position, colouring }` each, in frames and as in `SurfaceShading.colourBy`. The
+   * figure is posed when it is drawn, so that of many calls in one screen frame only the last costs anything. `ghosts` are more
+   * poses, seen through. Those that are `aligned` stand where the first pose stands. Answers null, or a promise of the blocks that must be fetched first.
    */
-  pose(poses) {
+  pose(poses, ghosts = []) {
     this.#poses = poses;
+    this.#ghosts = ghosts;
     this.draw();
-    const missing = poses.map(({ position, colouring }) => [Math.floor(position), colouring === 'strain'])
+    const missing = [...poses, ...ghosts].map(({ position, colouring }) => [Math.floor(position), colouring === 'strain'])
       .filter(([frame, strained]) => !this.figure.ready(frame) || (strained && !this.strain.ready(frame)));
     if (!missing.length) return null;
     return Promise.all(missing.flatMap(([frame]) => [this.figure.fetch(frame), this.strain.fetch(frame)]));
@@ -72,12 +91,19 @@ export class FigureScene {
   /** Move the camera back until it sees the whole figure. */
   reframe() {
     if (!this.figure) return;
+    this.#unshift();
     const box = this.figure.box();
     const size = box.getSize(new Vector3());
     const radius = size.length() / 2 || 1;
-    this.#floor.fit(Math.max(size.y, radius * 0.8), Math.max(size.x, size.z), box.min.y - radius * 0.002);
+    this.#camera.floor = box.min.y - radius * 0.002;
+    this.#floor.fit(Math.max(size.y, radius * 0.8), Math.max(size.x, size.z), this.#camera.floor);
     this.figure.centre(this.#middle);
     this.#camera.frameSphere(box.getCenter(new Vector3()), radius, this.#size, this.#middle);
+    this.draw();
+  }
+
+  lookFrom(side) {
+    this.#camera.lookFrom(side);
     this.draw();
   }
 
@@ -95,6 +121,51 @@ export class FigureScene {
     requestAnimationFrame(() => { this.#requested = false; this.#render(); });
   }
 
+  /** Show poses at once; answers the milliseconds that it took. */
+  drawNow(poses) {
+    const begun = performance.now();
+    this.#poses = poses;
+    this.#render();
+    return performance.now() - begun;
+  }
+
+  /**
+   * Pictures of poses, on nothing: pairs of a frame and a canvas, of as many of `frames` as `budget` milliseconds allow, and of
+   * one at least. They are drawn in a corner of the stage and copied from there, and the stage is drawn again before anybody
+   * sees it.
+   */
+  pictures(frames, width, height, budget) {
+    if (!this.figure || !frames.length) return [];
+    const begun = performance.now();
+    const [wide, high] = [Math.min(width, this.#size.width), Math.min(height, this.#size.height)];
+    const drawn = [];
+    this.#renderer.setScissorTest(true);
+    this.#renderer.setViewport(0, 0, wide, high);
+    this.#renderer.setScissor(0, 0, wide, high);
+    this.#floor.object.visible = false;
+    for (const frame of frames) {
+      drawn.push([frame, this.#picture(frame, wide, high)]);
+      if (performance.now() - begun > budget) break;
+    }
+    this.#floor.object.visible = true;
+    this.#render();
+    return drawn;
+  }
+
+  #picture(position, wide, high) {
+    this.#poseFigure({ position, colouring: null }, false);
+    const camera = this.#camera.portraitOf(this.#middle, wide / high);
+    this.#light.follow(camera, this.#middle);
+    this.#renderer.render(this.#scene, camera);
+    const ratio = this.#renderer.getPixelRatio();
+    const copy = Object.assign(document.createElement('canvas'), { width: wide, height: high });
+    const context = copy.getContext('2d', { willReadFrequently: this.#software });
+    context.drawImage(this.canvas, 0, this.canvas.height - high * ratio, wide * ratio, high * ratio, 0, 0, wide, high);
+    // Software copies later than asked, and may by then copy another pose: reading a pixel has it copy now.
+    if (this.#software) context.getImageData(0, 0, 1, 1);
+    return copy;
+  }
+
   #render() {
     const { width, height } = this.#size;
     const share = Math.max(1, this.#poses.length);
@@ -106,15 +177,49 @@ export class FigureScene {
       this.#renderer.setScissor((place * width) / share, 0, width / share, height);
       this.#renderer.render(this.#scene, this.#camera.camera);
     }
+    if (this.figure && this.#ghosts.length) this.#renderGhosts();
+  }
+
+  /** Draw the figure again in other poses, over the picture, behind what is nearer. */
+  #renderGhosts() {
+    const worn = this.figure.meshes.map((mesh) => mesh.material);
+    for (const mesh of this.figure.meshes) mesh.material = this.ghost;
+    this.#floor.object.visible = this.#renderer.autoClear = false;
+    for (const ghost of this.#ghosts) {
+      this.ghost.color.set(ghost.colouring);
+      this.#pose(ghost, false);
+      this.#renderer.render(this.#scene, this.#camera.camera);
+    }
+    this.#floor.object.visible = this.#renderer.autoClear = true;
+    this.figure.meshes.forEach((mesh, index) => { mesh.material = worn[index]; });
+    this.#unshift();
+  }
+
+  /** Pose the figure, and stand it where the first pose stands if it is `aligned`. */
+  #pose({ position, aligned }, first) {
+    this.#unshift();
+    this.figure.pose(position);
+    this.figure.centre(this.#middle);
+    if (first) this.#anchor.copy(this.#middle);
+    if (!aligned || first) return;
+    this.#shift.subVectors(this.#anchor, this.#middle).setY(0);
+    this.figure.object.position.add(this.#shift);
+    this.figure.pose(position);
+    this.#middle.add(this.#shift);
+  }
+
+  /** Put the figure back to where its take has it. */
+  #unshift() {
+    this.figure.object.position.sub(this.#shift);
+    this.#shift.set(0, 0, 0);
   }
 
   /** Pose and colour the figure; light and floor follow it, and with the first pose the camera does. */
   #poseFigure(pose, first) {
     if (this.figure && pose) {
-      this.figure.pose(pose.position);
+      this.#pose(pose, first);
       this.strain.colourBy(pose.colouring);
       this.strain.showFrame(Math.floor(pose.position));
-      this.figure.centre(this.#middle);
       if (first) this.#camera.follow(this.#middle);
     }
     const { camera, target } = this.#camera;
@@ -132,6 +237,7 @@ export class FigureScene {
 
   #theme() {
     this.#floor.setColours(styleValue('--grid'), styleValue('--shade'));
+    setEdge(styleValue('--rim'), Number(styleValue('--edge-shade')));
     this.draw();
   }
 }
@@ -142,21 +248,4 @@ function rendererOn(canvas, software) {
   const renderer = new WebGLRenderer({ canvas, context });
   renderer.setPixelRatio(software ? 1 : Math.min(devicePixelRatio, FINEST));
   return renderer;
-}
-
-/** A sky, a key light over the viewer's left shoulder, so that no side of the figure is dark, and a rim from behind. */
-class Light {
-  #key = new DirectionalLight(0xfff4e6, 1.7); #rim = new DirectionalLight(0xcfe0ff, 0.9);
-  #sky = new HemisphereLight(0xffffff, 0xb5aa9a, 1.9);
-
-  constructor() {
-    this.object = new Group().add(this.#sky, this.#key, this.#rim, this.#key.target, this.#rim.target);
-  }
-
-  /** Stand about `target` as the camera sees it. */
-  follow(camera, target) {
-    this.#key.position.set(-0.5, 0.9, 0.6).applyQuaternion(camera.quaternion).add(target);
-    this.#rim.position.set(0.9, 0.5, -0.8).applyQuaternion(camera.quaternion).add(target);
-    for (const light of [this.#key, this.#rim]) light.target.position.copy(target);
-  }
 }

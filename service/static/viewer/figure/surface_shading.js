@@ -1,4 +1,5 @@
-// Strain as colour: one byte for each patch and frame. The shader looks it up, so a frame costs a few hundred bytes.
+// The shading of a surface: the model's own colours; over them the strain, or the colour of a motion; and an edge that stands
+// out from the ground. Strain is one byte for each patch and frame. The shader looks it up, so a frame costs a few hundred bytes.
 
 import { Color, DataTexture, NearestFilter, RedFormat, UnsignedByteType } from 'three';
 
@@ -6,7 +7,11 @@ import { Color, DataTexture, NearestFilter, RedFormat, UnsignedByteType } from '
 // order is read without telling hues apart.
 const HEAT = ['#d5d2ca', '#f0c15a', '#e8712e', '#ae1f57', '#43106b'];
 const BEND = 0.7; // colour moves with strain to this power: most of a body is strained a little, and a little should be seen
-const CLAY = new Color(HEAT[0]);
+const COVER = 0.72; // how much of its own colour a motion's colour hides
+const GREYED = 0.55; // how much of its hue a surface loses under strain, so that hue tells strain alone
+
+/** The colour of a body that has none of its own. */
+export const CLAY = new Color(HEAT[0]);
 
 const VERTEX = `
 attribute float _patch;
@@ -15,21 +20,46 @@ uniform float patches;
 varying float vStrain;
 `;
 const FRAGMENT = `
-#define BEND ${BEND}
 uniform vec3 heat[5];
 uniform vec3 tint;
+uniform float cover;
 uniform float heated;
+uniform vec3 rim;
+uniform float shade;
 varying float vStrain;
-vec3 heatOf(float s) {
-  float x = pow(clamp(s, 0.0, 1.0), BEND) * 4.0;
+vec3 heatOf(float x) {
   vec3 c = mix(heat[0], heat[1], clamp(x, 0.0, 1.0));
   c = mix(c, heat[2], clamp(x - 1.0, 0.0, 1.0));
   c = mix(c, heat[3], clamp(x - 2.0, 0.0, 1.0));
   return mix(c, heat[4], clamp(x - 3.0, 0.0, 1.0));
 }
+vec3 covered(vec3 own) {
+  if (heated < 0.5) return mix(own, tint, cover);
+  float x = pow(clamp(vStrain, 0.0, 1.0), ${BEND}) * 4.0;
+  vec3 grey = mix(own, vec3(dot(own, vec3(0.2126, 0.7152, 0.0722))), ${GREYED});
+  return mix(grey, heatOf(x), smoothstep(0.0, 1.2, x));
+}
 `;
+const COLOUR = 'diffuseColor.rgb = covered(diffuseColor.rgb);';
+const EDGE = `
+  float edge = 1.0 - clamp(dot(normal, normalize(vViewPosition)), 0.0, 1.0);
+  edge *= edge * edge;
+  diffuseColor.rgb *= 1.0 - shade * edge;
+  totalEmissiveRadiance += rim * edge;
+`;
+const TURN = '#ifdef MIRRORED\n  normal = -normal;\n#endif';
 
-export class StrainShading {
+const after = (source, chunk, more) => source.replace(`#include <${chunk}>`, `#include <${chunk}>\n  ${more}`);
+
+/** How the edge of a figure stands out: from a dark ground by light, from a light one by shade. Shared by all figures. */
+const edge = { rim: { value: new Color(0) }, shade: { value: 0 } };
+
+export function setEdge(rim, shade) {
+  edge.rim.value.set(rim);
+  edge.shade.value = shade;
+}
+
+export class SurfaceShading {
   #file; #shown = -1;
 
   /** The shading of a block file of strain, or of none. */
@@ -40,7 +70,9 @@ export class StrainShading {
       patches: { value: 1 },
       heat: { value: HEAT.map((hex) => new Color(hex)) },
       tint: { value: CLAY.clone() },
+      cover: { value: 0 },
       heated: { value: 0 },
+      ...edge,
     };
     this.#texture(file ? file.header.patches : 1);
   }
@@ -58,15 +90,14 @@ export class StrainShading {
     this.uniforms.patches.value = patches;
   }
 
-  /** Make a material show strain or a tint; with MIRRORED among its `defines`, the light falls on the other side. */
+  /** Shade a material; with MIRRORED among its `defines`, the light falls on the other side. */
   shade(material) {
     material.onBeforeCompile = (shader) => {
       Object.assign(shader.uniforms, this.uniforms);
-      shader.vertexShader = VERTEX + shader.vertexShader.replace('#include <begin_vertex>',
-        '#include <begin_vertex>\n  vStrain = texture2D(strainMap, vec2((_patch + 0.5) / patches, 0.5)).r;');
-      shader.fragmentShader = FRAGMENT + shader.fragmentShader
-        .replace('#include <color_fragment>', '#include <color_fragment>\n  diffuseColor.rgb = mix(tint, heatOf(vStrain), heated);')
-        .replace('#include <normal_fragment_maps>', '#include <normal_fragment_maps>\n#ifdef MIRRORED\n  normal = -normal;\n#endif');
+      shader.vertexShader = VERTEX + after(shader.vertexShader, 'begin_vertex',
+        'vStrain = texture2D(strainMap, vec2((_patch + 0.5) / patches, 0.5)).r;');
+      const coloured = after(FRAGMENT + shader.fragmentShader, 'color_fragment', COLOUR);
+      shader.fragmentShader = after(after(coloured, 'normal_fragment_maps', TURN), 'emissivemap_fragment', EDGE);
     };
     return material;
   }
@@ -88,11 +119,12 @@ export class StrainShading {
 
   fetch(frame) { return this.#file ? this.#file.fetch(frame) : Promise.resolve(); }
 
-  /** Colour by `strain`, by one colour for the whole body, or by null as clay. */
+  /** Colour by `strain`, by the colour of a motion, or by null as the model is. */
   colourBy(choice) {
     const heated = choice === 'strain' && this.present;
     this.uniforms.heated.value = heated ? 1 : 0;
-    if (!heated) this.uniforms.tint.value.copy(choice && choice !== 'strain' ? new Color(choice).lerp(CLAY, 0.15) : CLAY);
+    this.uniforms.cover.value = choice && choice !== 'strain' ? COVER : 0;
+    if (this.uniforms.cover.value) this.uniforms.tint.value.set(choice);
   }
 
   dispose() { this.uniforms.strainMap.value.dispose(); }

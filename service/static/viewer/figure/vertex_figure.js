@@ -1,18 +1,19 @@
 // The figure of a vertex sequence: blocks of int16 positions. The normals are computed here, frame by frame.
 
-import { Box3, BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshLambertMaterial, Vector3 } from 'three';
+import { Box3, BufferAttribute, BufferGeometry, Group, Mesh, Vector3 } from 'three';
+import { surfaceMaterial } from './materials.js';
 import { orderTriangles } from './triangle_order.js';
 
 const LARGEST = 32767;
 
 /** The figure of the files of a vertex sequence. */
-export const createVertexFigure = (viewer, { file, triangles, patches }, strain) =>
-  new VertexFigure(file, orderTriangles(triangles), patches, strain);
+export const createVertexFigure = (viewer, { file, triangles, patches }, shading) =>
+  new VertexFigure(file, orderTriangles(triangles), patches, shading);
 
 class VertexFigure {
   #file; #triangles; #positions; #normals; #frame = -1; #sums;
 
-  constructor(file, triangles, patches, strain) {
+  constructor(file, triangles, patches, shading) {
     this.#file = file;
     this.#triangles = triangles;
     const { vertices, half, centre } = file.header;
@@ -24,11 +25,12 @@ class VertexFigure {
     geometry.setAttribute('normal', this.#normals);
     geometry.setAttribute('_patch', new BufferAttribute(Float32Array.from(patches), 1));
     geometry.setIndex(new BufferAttribute(triangles, 1));
-    const mesh = new Mesh(geometry, strain.shade(new MeshLambertMaterial({ side: DoubleSide })));
+    const mesh = new Mesh(geometry, shading.shade(surfaceMaterial(null, geometry)));
     mesh.frustumCulled = false;
     mesh.scale.setScalar(half);
     mesh.position.fromArray(centre);
     this.mesh = mesh;
+    this.meshes = [mesh];
     this.object = new Group().add(mesh);
     this.pose(0);
   }

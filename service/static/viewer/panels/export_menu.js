@@ -1,18 +1,16 @@
-// The button of the clips and the menu of the other exports, always of the revision on screen: open edits are saved first.
+// The button of the clips and the menu of the other exports, always of the revision on screen.
 
 import * as api from '../service/api.js';
 import { $, make } from '../dom.js';
+import { download } from './download.js';
+import { addKeyFrameList } from './key_frame_list.js';
+import { offerEngines } from './export_panel.js';
 
-/**
- * Wire the links once. `shown()` answers `{ id, name, revision, dirty, keep }`: what is on screen, whether edits are
- * open, and how to save them; null while there is no result.
- */
+/** Wire the links once. `shown()` is as for `download`; null while there is no result. Answers a function that points them at it. */
 export function addExportMenu(shown) {
   const menu = $('downloads').querySelector('details');
   const list = menu.querySelector('ul');
-  const clips = $('clips');
-  clips.onclick = (event) => save(event, clips, 'clips', true);
-  const links = [[clips, 'clips']];
+  const links = [];
   const note = (sentence) => { $('downloads-note').textContent = sentence; };
   let of = ''; // the result that the note is about
   list.addEventListener('click', () => { menu.open = false; });
@@ -23,53 +21,44 @@ export function addExportMenu(shown) {
     menu.querySelector('summary').focus();
   });
   addEventListener('pointerdown', (event) => { if (!menu.contains(event.target)) menu.open = false; });
+  $('one-clip').addEventListener('click', () => {
+    const { affected, segments } = shown();
+    const loops = affected.some((index) => segments[index].loop); // a marked segment is saved as its best loop
+    const choices = { only: affected.map((index) => index + 1).join(), keep_discarded: 'true', ...(loops && { loop: 'auto' }) };
+    download(shown, 'clips', choices, note);
+  });
 
-  async function save(event, link, path, queued) {
-    const { keep, dirty } = shown();
-    if (!dirty && !queued) return; // the browser follows the link itself
-    event.preventDefault();
-    note(dirty ? 'Saving your edits first …' : 'Writing the file …');
-    try {
-      await keep();
-      const { id, revision } = shown();
-      const address = api.exportAddress(id, path, revision);
-      if (queued) {
-        note('Writing the file …');
-        while (!(await api.isWritten(address)));
-      }
-      note('');
-      const carrier = make('a', { href: address, download: link.download });
-      carrier.click();
-    } catch (problem) { note(problem.message); }
+  addKeyFrameList(() => download(shown, 'keyframes', {}, note));
+
+  /** Have a link download an export; the address is there too, to be copied. */
+  function wire(link, path) {
+    link.addEventListener('click', (event) => { event.preventDefault(); download(shown, path, {}, note); });
+    links.push([link, path]);
+    return link;
   }
 
   /** Fill the menu from the service's list. */
   async function offerExports() {
-    const answer = await api.exports().catch(() => null);
-    for (const { path, title, description, queued } of answer?.exports ?? []) {
+    const { exports = [], engines = [] } = await api.exports().catch(() => ({}));
+    offerEngines(engines);
+    for (const { path, title, description } of exports) {
       if (path === 'clips') continue; // the button beside the menu
-      const link = make('a', { onclick: (event) => save(event, link, path, queued) }, make('strong', {}, title), make('span', {}, description));
+      const link = wire(make('a', {}, make('strong', {}, title), make('span', {}, description)), path);
       link.dataset.form = path.replace('result.', '');
       list.append(make('li', {}, link));
-      links.push([link, path]);
     }
     showLinks();
   }
 
-  /** Point the links at the result and the revision on screen. */
   function showLinks() {
     if (!shown()) return;
-    const { id, revision, name } = shown();
+    const { id, revision } = shown();
     if (id !== of) note('');
     of = id;
-    for (const [link, path] of links) {
-      link.href = api.exportAddress(id, path, revision);
-      if (path.startsWith('result.')) link.download = `${stem(name)}${path.slice('result'.length)}`;
-    }
+    for (const [link, path] of links) link.href = api.exportAddress(id, path, revision);
   }
 
+  wire($('clips'), 'clips');
   offerExports();
   return showLinks;
 }
-
-const stem = (name) => (name || 'result').replace(/\.[^.]+$/, '');

@@ -27,7 +27,7 @@ export async function showRevisions(id, shown, open) {
 }
 
 /** Wire the list once. */
-export const addRevisionList = () => addRovingFocus($('revisions'), 'button');
+export const addRevisionList = () => { for (const id of ['revisions', 'edited-list']) addRovingFocus($(id), 'button'); };
 
 /** Show another revision of a result. Open edits are saved first, or dropped if a person chose so. */
 export async function openRevision(result, number, dropping = false) {

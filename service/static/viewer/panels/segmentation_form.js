@@ -5,6 +5,7 @@ import * as api from '../service/api.js';
 import { waitUntilDone } from '../service/job_status.js';
 import { $, make } from '../dom.js';
 import { count } from '../number_format.js';
+import { addAdvancedSettings, offerSettings, showSettings } from './advanced_settings.js';
 
 const DELAY = 350; // ms of quiet before a typed or stepped number is sent
 const SOON = 150; // ms after which the form says that it waits
@@ -12,9 +13,10 @@ const SOON = 150; // ms after which the form says that it waits
 let choose = () => {};
 let most = Infinity; // motions that the service takes; it says so in its list of methods
 let needsNumber = new Set(); // the methods that cannot find the number of motions themselves
+let shownSettings = null; // the document whose settings are shown
 let compared = { of: '', scores: [] }; // a result of a given number has no scores: those of the same method stay
 
-/** Wire the form once. `resegment(changes)` posts; `current()` is the document on screen. */
+/** Wire the form once. `resegment(changes)` posts; `current()` is the result on screen. */
 export function addSegmentationForm({ resegment, current }) {
   const field = $('motions');
   let timer;
@@ -30,7 +32,7 @@ export function addSegmentationForm({ resegment, current }) {
   };
   const step = (by) => {
     const from = typed();
-    const number = Math.max(1, Math.min(most, (from === 'auto' || from === null ? current().motions : from) + by));
+    const number = Math.max(1, Math.min(most, (from === 'auto' || from === null ? current().document.motions : from) + by));
     field.value = number;
     $('auto').setAttribute('aria-pressed', 'false');
     send({ motions: number }, DELAY);
@@ -46,21 +48,30 @@ export function addSegmentationForm({ resegment, current }) {
   field.addEventListener('change', () => {
     const motions = typed();
     if (motions === null) showFormNote(`Type a whole number of motions up to ${most}, or auto.`);
-    else if (motions === 'auto' && needsNumber.has(current().method)) showFormNote(`The method ${current().method} needs a number of motions.`);
+    else if (motions === 'auto' && needsNumber.has(current().document.method)) showFormNote(`The method ${current().document.method} needs a number of motions.`);
     else send({ motions });
   });
   $('method').addEventListener('change', ({ target: { value: method } }) => {
-    send(needsNumber.has(method) && typed() === 'auto' ? { method, motions: current().motions } : { method });
+    send(needsNumber.has(method) && typed() === 'auto' ? { method, motions: current().document.motions } : { method });
   });
+  addAdvancedSettings(() => current().document.parameters, (changes) => resegment(changes));
   $('controls').addEventListener('submit', (event) => event.preventDefault());
 }
 
-export function showFormNote(sentence) { $('controls-note').textContent = sentence; }
+/** Say a sentence below the form, and offer ways on. */
+export function showFormNote(sentence, ...ways) { $('controls-note').replaceChildren(sentence, ...ways); }
 
-/** Show what the document was made with. */
-export function showParameters(document) {
-  const { motions } = document.parameters;
-  const auto = motions === 'auto' || motions === undefined;
+/** Say one more sentence, after what the form says already; the last one of these is in its place. */
+export function addFormNote(sentence, ...ways) {
+  $('controls-note').querySelector('.edits-elsewhere')?.remove();
+  $('controls-note').append(make('span', { className: 'edits-elsewhere' }, ' ', sentence, ...ways));
+}
+
+/** Show what the document was made with. `found` is how many motions the method found, which may be fewer than were asked for. */
+export function showParameters(document, found = document.motions) {
+  const { motions: asked } = document.parameters;
+  const auto = asked === 'auto' || asked === undefined;
+  const motions = found ?? asked;
   $('motions').value = auto ? '' : motions;
   $('motions').placeholder = document.motions;
   $('auto').setAttribute('aria-pressed', String(auto));
@@ -68,6 +79,8 @@ export function showParameters(document) {
   const select = $('method');
   if (![...select.options].some((option) => option.value === document.method)) select.append(option(document.method));
   select.value = document.method;
+  shownSettings = document;
+  showSettings(document);
   const of = [document.source.name, document.frames, document.method, document.parameters.take].join();
   if (compared.of !== of || document.scores.length > 1) compared = { of, scores: document.scores };
   const chosen = auto ? document.motions : motions; // of a revision, what is shown; else what was asked for
@@ -91,7 +104,7 @@ export async function resegment(result, changes, signal) {
   } catch (problem) {
     if (problem.name === 'AbortError' || result.closed) return;
     showFormNote(problem.message);
-    showParameters(result.document);
+    showParameters(result.document, result.status.motions);
   } finally { clearTimeout(waiting); }
 }
 
@@ -104,6 +117,8 @@ export async function offerMethods() {
   needsNumber = new Set(answer.methods.filter(({ parameters }) => parameters.required?.includes('motions')).map(({ name }) => name));
   most = answer.methods[0].parameters.properties.motions.anyOf.find(({ type }) => type === 'integer').maximum;
   const chosen = $('method').value;
+  offerSettings(answer.methods);
+  if (shownSettings) showSettings(shownSettings);
   $('method').replaceChildren(...answer.methods.map(({ name, description }) => option(name, description)));
   if (chosen) $('method').value = chosen;
   $('auto').disabled = needsNumber.has(chosen);

@@ -12,7 +12,8 @@ export class Problem extends Error {
 
 const UNREACHABLE = { code: 'unreachable', detail: 'The service does not answer. Is it running, and is the network up?' };
 
-async function call(method, path, { body, headers, signal } = {}) {
+/** One call: its answer as JSON, null where there is none. Throws `Problem`. */
+export async function call(method, path, { body, headers, signal } = {}) {
   let answer;
   try {
     answer = await fetch(path, { method, body, headers, signal });
@@ -38,25 +39,40 @@ function parsedProblem(text, status) {
   return { status, code: `http-${status}`, detail: `The service answered ${status} without saying why.` };
 }
 
-const json = (value) => ({ body: JSON.stringify(value), headers: { 'Content-Type': 'application/json' } });
+/** A body of JSON, for `call`. */
+export const json = (value) => ({ body: JSON.stringify(value), headers: { 'Content-Type': 'application/json' } });
 
-export const recentAnimations = () => call('GET', '/v1/animations');
-export const segmentationsOf = (id) => call('GET', `/v1/segmentations?animation=${id}`);
+/** A page of animations whose names hold `search`; `next` is the address of the page after it. */
+export const animations = (search = '', limit = 24) => call('GET', `/v1/animations?limit=${limit}${search ? `&search=${encodeURIComponent(search)}` : ''}`);
+export const more = (next) => call('GET', next);
+export const animation = (id) => call('GET', `/v1/animations/${id}`);
+export const rename = (id, name) => call('PATCH', `/v1/animations/${id}`, json({ name }));
+export const deleteAnimation = (id) => call('DELETE', `/v1/animations/${id}`);
+export const segmentationsOf = (id) => call('GET', `/v1/segmentations?animation=${id}&limit=100`);
+export const segmentations = () => call('GET', '/v1/segmentations?limit=100');
 export const methods = () => call('GET', '/v1/methods');
 export const exports = () => call('GET', '/v1/exports');
 export const status = (id, wait, signal) =>
   call('GET', `/v1/segmentations/${id}`, { headers: wait ? { Prefer: `wait=${wait}` } : {}, signal });
 export const result = (id, revision = 0) =>
   call('GET', `/v1/segmentations/${id}/result${revisionQuery(revision)}`, { headers: { Accept: 'application/json' } });
+export const revision = (id, number) => call('GET', `/v1/segmentations/${id}/revisions/${number}`);
 export const revisions = (id) => call('GET', `/v1/segmentations/${id}/revisions`);
 export const viewer = (id) => call('GET', `/v1/segmentations/${id}/viewer`);
 export const cancel = (id) => call('DELETE', `/v1/segmentations/${id}`);
 export const segment = (animationId, parameters = {}) =>
   call('POST', '/v1/segmentations', json({ animation: animationId, ...parameters }));
 
-/** The address of an export of a revision: `result.csv`, `clips`, `plot.svg`. */
-export const exportAddress = (id, name, revision = 0) => `/v1/segmentations/${id}/${name}${revisionQuery(revision)}`;
-const revisionQuery = (revision) => (revision ? `?revision=${revision}` : '');
+/** The address of an export of a revision: `result.csv`, `clips`, `plot.svg`; `choices` are those of clips. */
+export const exportAddress = (id, name, revision = 0, choices = {}) => `/v1/segmentations/${id}/${name}${revisionQuery(revision, choices)}`;
+
+/** The clips that there would be with `choices`. */
+export const clipPlan = (id, revision, choices) => call('GET', exportAddress(id, 'clips/plan', revision, choices));
+
+function revisionQuery(revision, choices = {}) {
+  const query = new URLSearchParams({ ...(revision ? { revision } : {}), ...choices }).toString();
+  return query && `?${query}`;
+}
 
 /** Save edited segments as the revision after number `newest`; 412 if somebody else has saved one since. */
 export function revise(id, segments, newest, note) {

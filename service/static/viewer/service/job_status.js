@@ -1,16 +1,21 @@
 // The status of a segmentation: live by server-sent events, by long polling if those do not come through.
 
 import * as api from './api.js';
+import { untilAnswered } from './retry.js';
 
 const OVER = new Set(['done', 'failed', 'cancelled']);
 
-/** The status document once it is done. `onStatus` gets every one on the way. Throws the problem it failed with. */
-export async function waitUntilDone(id, onStatus, signal) {
-  let status = await api.status(id, 0, signal);
+/**
+ * The status document once it is done. `onStatus` gets every one on the way; `onPause(problem)` is called while the service does
+ * not answer and the page tries again. Throws the problem it failed with.
+ */
+export async function waitUntilDone(id, onStatus, signal, onPause) {
+  const ask = (wait) => untilAnswered(() => api.status(id, wait, signal), signal, onPause);
+  let status = await ask(0);
   onStatus(status);
   if (!OVER.has(status.status)) status = await followEvents(id, onStatus, signal).catch((e) => stopOr(e, null));
   while (!status || !OVER.has(status.status)) {
-    status = await api.status(id, 15, signal);
+    status = await ask(15);
     onStatus(status);
   }
   if (status.status === 'failed') throw new api.Problem(status.problem || { detail: 'It failed without a reason.' });

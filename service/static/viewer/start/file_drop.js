@@ -2,10 +2,10 @@
 
 import { $ } from '../dom.js';
 
-/** Call `open(files)` whenever a person gives files; the scene comes before its buffers. */
+/** Call `open(files)` whenever a person gives files. */
 export function acceptFiles(open) {
-  const given = (files) => files.length && open([...files].sort((one, other) => isScene(other) - isScene(one)));
-  for (const label of [$('drop'), $('another')]) {
+  const given = (files) => files.length && open([...files]);
+  for (const label of [$('drop'), $('another'), $('collection-add')]) {
     const input = label.querySelector('input');
     input.addEventListener('change', () => { given(input.files); input.value = ''; });
     label.addEventListener('keydown', (event) => {
@@ -27,6 +27,3 @@ export function acceptFiles(open) {
   });
   addEventListener('paste', (event) => event.clipboardData?.files && given(event.clipboardData.files));
 }
-
-/** 1 of a scene, whose name is the animation's, and 0 of what it needs. */
-const isScene = ({ name }) => Number(/\.(glb|gltf|npz|bvh)$/i.test(name));

@@ -26,6 +26,9 @@ export function showStage(stage, fraction = null, note = fraction === null ? '' 
   $('waiting-note').textContent = note;
 }
 
+/** Say that the service does not answer, and that the page tries again. */
+export const showPause = () => { $('waiting-note').textContent = 'The service does not answer. The page tries again.'; };
+
 /** The same for a status document of the service. */
 export function showStatus(status) {
   const { stage, fraction } = status.progress || {};
@@ -47,7 +50,11 @@ export const STAGES = {
   'key-frames': 'Choosing the key-frames',
   cut: 'Finding the motions',
   figure: 'Preparing the figure',
+  poses: 'Comparing the poses of all takes',
+  signatures: 'Describing the segments of all takes',
+  linkage: 'Finding the motions of all takes',
+  'further takes': 'Labelling further takes',
 };
 
 /** A stage in words. A stage this page has not heard of is shown under its own name. */
-const stageText = (stage) => STAGES[stage] || (stage ? stage[0].toUpperCase() + stage.slice(1).replaceAll('-', ' ') : '');
+export const stageText = (stage) => STAGES[stage] || (stage ? stage[0].toUpperCase() + stage.slice(1).replaceAll('-', ' ') : '');

@@ -43,23 +43,23 @@ export class EnergyCurve {
   #draw() {
     this.#plot?.destroy();
     this.#box.replaceChildren();
-    const highest = this.#document.energy.reduce((most, value) => (value > most ? value : most), 0) || 1;
+    const [low, high] = fittedRange(this.#document.energy);
     const faint = styleValue('--faint');
     const grid = { stroke: styleValue('--hairline'), width: 1 };
     const axis = { stroke: faint, grid, ticks: { show: false }, font: `11px ${styleValue('--sans')}` };
     this.#plot = new uPlot({
       width: this.#width || 600,
       height: this.#box.clientHeight || 150,
-      padding: [10, RIGHT, 0, 0],
+      padding: [6, RIGHT, 0, 0],
       legend: { show: false },
       cursor: { show: false },
       scales: {
         x: { time: false, range: () => [this.#range.from, this.#range.to] },
-        y: { range: () => [0, highest * 1.12] },
+        y: { range: () => [low, high] },
       },
       axes: [
         { ...axis, size: 22, gap: 4, space: 70, values: (_, ticks) => ticks.map((t) => (Number.isInteger(t) ? frameNumber(t) : '')) },
-        { ...axis, size: AXIS, gap: 6, space: 34, values: (_, ticks) => ticks.map((t) => +t.toFixed(2)) },
+        { ...axis, size: AXIS, gap: 6, space: 22, values: (_, ticks) => ticks.map((t) => +t.toFixed(2)) },
       ],
       series: [{}, { stroke: styleValue('--ink'), width: 1.5, points: { show: false }, spanGaps: false }],
       hooks: { drawClear: [(u) => this.#underlay(u)], draw: [(u) => this.#overlay(u)] },
@@ -144,4 +144,17 @@ export class EnergyCurve {
     const { from, to } = this.#range;
     return this.#document.segments.filter((segment) => segment.end > from && segment.start < to);
   }
+}
+
+/** The lowest and the highest value, with a little room; of a flat curve some room all the same. */
+function fittedRange(values) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const value of values) {
+    if (value === null) continue;
+    if (value < low) low = value;
+    if (value > high) high = value;
+  }
+  if (low > high) return [0, 1];
+  const room = Math.max((high - low) * 0.12, Math.abs(high) * 0.02, 1e-3);
+  return [Math.max(0, low - room), high + room];
 }

@@ -20,6 +20,15 @@ export function goToNeighbour(result, by) {
   goToSegment(result, by < 0 && started ? index : Math.max(0, Math.min(segments.length - 1, index + by)));
 }
 
+/** Show the segment at a frame alone, with a little around it; the whole take where that is shown already. */
+export function zoomToSegment(result, frame = result.playhead.frame) {
+  const { range, document: { segments } } = result;
+  const { start, end } = segments[result.segmentIndexAt(frame)];
+  const around = Math.max(4, (end - start) * 0.06);
+  const near = range.from >= start - 2 * around && range.to <= end + 2 * around;
+  if (near) range.showAll(); else range.set(start - around, end + around);
+}
+
 /** Repeat the current segment, or stop repeating it. */
 export function repeatSegment(result, on) {
   const { start, end } = result.document.segments[result.segmentIndexAt(result.playhead.frame)];
@@ -52,9 +61,14 @@ export function addViewControls(shown) {
   const zoom = (factor) => shown().range.zoom(factor, shown().playhead.frame);
   on('zoom-in', 'click', () => zoom(1.6));
   on('zoom-out', 'click', () => zoom(1 / 1.6));
+  on('zoom-segment', 'click', () => zoomToSegment(shown()));
   on('zoom-fit', 'click', () => shown().range.showAll());
   on('reframe', 'click', () => shown().figurePanel.scene?.reframe());
   on('follow', 'change', (event) => { if (shown().figurePanel.scene) shown().figurePanel.scene.following = event.target.checked; });
+  for (const button of document.querySelectorAll('[data-side]')) {
+    button.addEventListener('click', () => shown().figurePanel.scene?.lookFrom(button.dataset.side));
+  }
+  on('ghosts', 'change', () => shown().figurePanel.show());
   on('upright', 'click', (event) => {
     const pressed = event.target.getAttribute('aria-pressed') !== 'true';
     event.target.setAttribute('aria-pressed', String(pressed));

@@ -1,29 +1,38 @@
-// Pointer, wheel and two fingers over the curve and the track of segments: they move the playhead, drag cuts and zoom.
+// Pointer and wheel over the curve and the track of segments: they move the playhead, drag cuts and zoom.
 
 import { $, onResize } from '../dom.js';
-import { clockTime, frameText } from '../number_format.js';
+import { CutDrag } from './cut_drag.js';
+import { TimelineHover } from './hover.js';
+import { nearestKeyFrame, snappedFrame } from './key_frames.js';
+import { zoomToSegment } from './navigation.js';
+import { Pinch } from './pinch.js';
+import { placeTools } from './selection_tools_place.js';
 
 const WHEEL = 0.0018;
 const NEAR = { mouse: 5, pen: 8, touch: 14 }; // pixels from a cut that still take hold of it
+const SNAP = 14; // pixels from which a cut snaps
 const ROOM = 16; // pixels a segment has on average before its cuts can be grabbed: closer together, one would grab the wrong one
 
 export class TimelinePointer {
-  #box = $('tracks'); #head = $('playhead'); #handle = $('handle'); #hover = $('hover');
-  #result; #pinch; #held = null; // 'head' or 'cut' while a pointer is down
+  #box = $('tracks'); #head = $('playhead'); #handle = $('handle'); #toolsAt = null;
+  #result; #hover; #pinch; #scrubs = false; #drag = null; // while a pointer is down
 
   /** Wire the tracks of a result. */
   constructor(result, signal) {
     this.#result = result;
+    this.#hover = new TimelineHover(result);
     this.#pinch = new Pinch(result.range);
     const on = (name, action, options = {}) => this.#box.addEventListener(name, action, { signal, ...options });
     on('pointerdown', (event) => this.#press(event));
     on('pointermove', (event) => this.#move(event));
-    for (const name of ['pointerup', 'pointercancel']) on(name, (event) => this.#release(event));
+    on('pointerup', (event) => this.#release(event, (drag) => drag.end()));
+    on('pointercancel', (event) => this.#release(event, (drag) => drag.cancel()));
     on('pointerleave', () => this.#hide());
-    on('dblclick', (event) => { if (this.#cutAt(event) < 0) result.range.showAll(); });
+    on('dblclick', (event) => { if (this.#cutAt(event) < 0) zoomToSegment(result, Math.floor(this.#frameAt(event))); });
     on('wheel', (event) => this.#wheel(event), { passive: false });
     result.range.listen(() => this.place());
     onResize(this.#box, () => this.place(), signal);
+    onResize($('selection-tools'), () => { this.#toolsAt = null; this.#placeTools(); }, signal);
   }
 
   /** Put the playhead at the moment, and the handle at the selected cut. */
@@ -32,13 +41,30 @@ export class TimelinePointer {
     this.#put(this.#head, playhead.frame + 0.5);
     if (cut >= 0) this.#put(this.#handle, segments[cut].end); else this.#handle.hidden = true;
     this.#box.classList.toggle('has-cut', cut >= 0);
+    this.#placeTools();
+  }
+
+  /** Put the tools under the selected cut, or under what is seen of the current segment; while it plays they stay. */
+  #placeTools() {
+    const { playhead, range, editor: { cut, segments, currentIndex } } = this.#result;
+    if (playhead.playing) return;
+    const { start, end } = segments[currentIndex];
+    const x = this.#x(cut >= 0 ? segments[cut].end : (Math.max(start, range.from) + Math.min(end, range.to)) / 2);
+    if (x === this.#toolsAt) return; // placing them makes the browser lay out the page
+    this.#toolsAt = x;
+    placeTools(x);
+  }
+
+  /** Where a frame is, in pixels of the tracks. */
+  #x(frame) {
+    const { range, curve: { plot: { left, width } } } = this.#result;
+    return left + ((frame - range.from) / range.length) * width;
   }
 
   #put(element, frame) {
-    const { range, curve: { plot: { left, width } } } = this.#result;
-    const share = (frame - range.from) / range.length;
-    element.hidden = share < 0 || share > 1;
-    element.style.transform = `translateX(${left + share * width}px)`;
+    const { range } = this.#result;
+    element.hidden = frame < range.from || frame > range.to;
+    element.style.transform = `translateX(${this.#x(frame)}px)`;
   }
 
   /** Where a pointer is: 0 at the left of the plot, 1 at its right. */
@@ -65,35 +91,48 @@ export class TimelinePointer {
     return near && near.away <= (NEAR[event.pointerType] || NEAR.mouse) ? near.cut : -1;
   }
 
+  /** The key-frame under a pointer, or null. */
+  #keyAt(event) {
+    const { range, document, curve: { plot: { width } } } = this.#result;
+    return nearestKeyFrame(document.key_frames, this.#frameAt(event), ((NEAR[event.pointerType] || NEAR.mouse) * range.length) / width);
+  }
+
   #press(event) {
     if (event.button) return;
     const { editor, playhead } = this.#result;
     this.#box.setPointerCapture(event.pointerId);
     this.#pinch.press(event.pointerId, this.#shareAt(event));
-    if (this.#pinch.on) return this.#endDrag();
+    if (this.#pinch.on) return this.#letGo((drag) => drag.cancel());
     const cut = this.#cutAt(event);
-    this.#held = cut >= 0 ? 'cut' : 'head';
-    if (cut >= 0) return editor.beginDrag(cut);
+    if (cut >= 0) {
+      this.#drag = new CutDrag(editor, cut, event, () => { this.#drag = null; });
+      return;
+    }
+    this.#scrubs = true;
     editor.select(-1);
-    playhead.seek(Math.floor(this.#frameAt(event)));
+    editor.chooseOnly([]);
+    playhead.seek(this.#keyAt(event)?.frame ?? Math.floor(this.#frameAt(event)));
   }
 
   #move(event) {
     this.#pinch.move(event.pointerId, this.#shareAt(event));
     if (this.#pinch.on) return this.#hide();
-    if (this.#held === 'head') this.#result.playhead.seek(Math.floor(this.#frameAt(event)));
-    if (this.#held === 'cut') this.#result.editor.dragTo(Math.round(this.#frameAt(event)));
+    if (this.#scrubs) this.#result.playhead.seek(Math.floor(this.#frameAt(event)));
+    const perPixel = this.#result.range.length / this.#result.curve.plot.width;
+    const snap = event.ctrlKey || event.metaKey ? (frame) => snappedFrame(this.#result.document, frame, SNAP * perPixel) : (frame) => frame;
+    this.#drag?.moveTo(event.clientX, perPixel, snap);
     this.#showHover(event);
   }
 
-  #release(event) {
+  #release(event, finish) {
     this.#pinch.release(event.pointerId);
-    this.#endDrag();
+    this.#letGo(finish);
   }
 
-  #endDrag() {
-    if (this.#held === 'cut') this.#result.editor.endDrag();
-    this.#held = null;
+  #letGo(finish) {
+    if (this.#drag) finish(this.#drag);
+    this.#drag = null;
+    this.#scrubs = false;
   }
 
   #wheel(event) {
@@ -106,59 +145,17 @@ export class TimelinePointer {
 
   /** Say what is under the pointer, or where the cut is that it drags. */
   #showHover(event) {
-    const { range, editor, document: { segments } } = this.#result;
-    const cut = { head: -1, cut: editor.cut }[this.#held] ?? this.#cutAt(event);
-    const frame = cut >= 0 ? segments[cut].end : Math.min(range.frames - 1, Math.floor(this.#frameAt(event)));
-    const segment = segments[this.#result.segmentIndexAt(frame)];
-    const what = cut >= 0 ? 'cut' : segment.name + repetition(segment, frame);
+    const { range, document: { segments } } = this.#result;
+    const cut = this.#scrubs ? -1 : this.#drag?.cut ?? this.#cutAt(event);
+    const key = this.#drag || this.#scrubs || cut >= 0 ? null : this.#keyAt(event);
+    const frame = cut >= 0 ? segments[cut].end : key?.frame ?? Math.min(range.frames - 1, Math.floor(this.#frameAt(event)));
     this.#box.classList.toggle('on-cut', cut >= 0);
-    this.#hover.textContent = `${what} · frame ${frameText(frame)} · ${clockTime(this.#result.secondsAt(frame))}`;
-    this.#hover.hidden = false;
-    const { left, width } = this.#box.getBoundingClientRect();
-    this.#hover.style.transform = `translateX(${Math.max(0, Math.min(width - this.#hover.offsetWidth, event.clientX - left + 12))}px)`;
+    this.#box.classList.toggle('on-key', key !== null);
+    this.#hover.show(event.clientX - this.#box.getBoundingClientRect().left, { frame, cut: cut >= 0, key: key !== null });
   }
 
   #hide() {
-    this.#hover.hidden = true;
-    this.#box.classList.remove('on-cut');
+    this.#hover.hide();
+    this.#box.classList.remove('on-cut', 'on-key');
   }
-}
-
-/** Which repetition of its motion a frame is in, in words, where there are several. */
-function repetition({ repeats }, frame) {
-  const at = repeats.findLastIndex(({ start }) => start <= frame);
-  return repeats.length > 1 && at >= 0 ? `, ${at + 1} of ${repeats.length}` : '';
-}
-
-const CLOSE = 0.02; // share of the width below which two fingers do not zoom
-
-/** Two fingers on a range of frames: apart and together they zoom, aside they pan. The frames under them stay under them. */
-export class Pinch {
-  #range; #fingers = new Map();
-
-  constructor(range) { this.#range = range; }
-
-  get on() { return this.#fingers.size > 1; }
-
-  /** A finger comes down at a share of the width: from now on each holds the frame it is on. */
-  press(id, share) {
-    this.#fingers.set(id, { share });
-    for (const finger of this.#fingers.values()) finger.frame = this.#range.from + finger.share * this.#range.length;
-  }
-
-  /** A finger moves. */
-  move(id, share) {
-    const finger = this.#fingers.get(id);
-    if (!finger) return;
-    finger.share = share;
-    if (!this.on) return;
-    const fingers = [...this.#fingers.values()].sort((one, other) => one.share - other.share);
-    const [left, right] = [fingers[0], fingers.at(-1)]; // of three, the outer ones
-    if (right.share - left.share < CLOSE || right.frame <= left.frame) return;
-    const length = (right.frame - left.frame) / (right.share - left.share);
-    const from = left.frame - left.share * length;
-    this.#range.set(from, from + length);
-  }
-
-  release(id) { this.#fingers.delete(id); }
 }

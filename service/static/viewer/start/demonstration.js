@@ -1,0 +1,93 @@
+// What one gets, on the first screen: a figure that moves, its take in colours, and the clips by name, in a short loop.
+
+import { $, make, nextPaint } from '../dom.js';
+import { segmentIndexAt } from '../editing/segment_edits.js';
+import { probeRenderer, isSoftware } from '../figure/renderer_probe.js';
+import { motionColour, writeTag } from '../palette.js';
+import { sampleBytes, sampleIndex } from './samples.js';
+
+const SHORTEST = 30; // ms between two pictures
+const REST = 2; // so many times as long as a picture takes to draw passes until the next, at least
+
+const stillness = matchMedia('(prefers-reduced-motion: reduce)');
+
+let asked = false; // that it is shown at all
+let paused = stillness.matches;
+let stage = null; // what is drawn with, once it is loaded: `{ scene, sample }`
+let position = 0;
+
+/** Show the demonstration, or leave it: then nothing is drawn. */
+export async function showDemonstration(shown) {
+  asked = shown;
+  if (!shown) return;
+  const { demonstration: sample } = await sampleIndex() ?? {};
+  $('demonstration').hidden = !sample;
+  if (!sample || stage) return run();
+  list(sample);
+  await nextPaint();
+  await new Promise((done) => setTimeout(done, 200)); // a person who opens something at once waits for no figure
+  if (!asked || stage) return;
+  stage = { sample, scene: null };
+  stage.scene = await load(sample).catch(() => null); // without WebGL the strip and the clips say it
+  document.body.classList.toggle('no-demonstration', !stage.scene);
+  run();
+}
+
+async function load(sample) {
+  const [{ FigureScene }, model, renderer] = await Promise.all([import('../figure/scene.js'), sampleBytes(sample), probeRenderer()]);
+  const scene = new FigureScene($('demo-figure'), isSoftware(renderer), { turns: false });
+  const viewer = { kind: 'gltf', skeleton: false, start_seconds: 0, frame_rate: sample.frame_rate };
+  await scene.show(viewer, { model, strain: null }, new AbortController().signal);
+  $('demo-figure').dataset.shown = 'gltf';
+  return scene;
+}
+
+/** Write the segments below the figure, as a strip and as the clips they become. */
+function list({ segments, frames, frame_rate: rate }) {
+  const numbers = {};
+  $('demo-strip').append(...segments.map((segment) => {
+    const box = make('span', {}, segment.name);
+    writeTag(box, segment);
+    box.style.flexGrow = segment.end - segment.start;
+    return box;
+  }));
+  $('demo-clips').replaceChildren(...segments.map(({ name, motion, start, end }) => {
+    numbers[name] = (numbers[name] ?? 0) + 1;
+    const swatch = make('i', { className: 'swatch', 'aria-hidden': 'true' });
+    swatch.style.backgroundColor = motionColour(motion);
+    return make('li', {}, swatch, `${name}_0${numbers[name]}`, make('span', { className: 'faint' }, `${((end - start) / rate).toFixed(1)} s`));
+  }));
+  show(segments, frames);
+}
+
+function show(segments, frames) {
+  const at = segmentIndexAt(segments, position);
+  $('demo-head').style.left = `${(100 * position) / frames}%`;
+  [...$('demo-clips').children].forEach((clip, index) => clip.classList.toggle('now', index === at));
+  return segments[at];
+}
+
+/** Wire the button once: whoever wants no motion stops it. */
+export function addDemonstration() {
+  $('demo-play').addEventListener('click', () => { paused = !paused; run(); });
+  document.addEventListener('visibilitychange', run);
+}
+
+let running = false;
+
+function run() {
+  $('demo-play').textContent = paused ? 'Play' : 'Pause';
+  if (!stage?.scene || running) return;
+  running = true;
+  let last = performance.now();
+  const step = (now) => {
+    const { scene, sample: { segments, frames, frame_rate: rate } } = stage;
+    running = asked && !paused && !document.hidden;
+    position = (position + (Math.min(200, now - last) / 1000) * rate) % frames;
+    last = now;
+    const { motion } = show(segments, frames);
+    const cost = scene.drawNow([{ position, colouring: motionColour(motion) }]);
+    if (running) setTimeout(() => requestAnimationFrame(step), Math.max(SHORTEST, REST * cost) - 16);
+  };
+  requestAnimationFrame(step);
+}
