@@ -4,6 +4,7 @@ app, settings, backend  the application, its settings, and the records, queue an
 routes                  the calls, one file for each resource
 api_keys, auth          API keys, and who may make a request
 uploads                 uploads: received, checked and registered
+webhooks                calls once a segmentation is over
 segmentations           requests for a segmentation, and its status
 results                 a result in every format
 response_documents      the JSON of all answers

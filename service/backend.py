@@ -13,16 +13,18 @@ from fastapi import Depends, Request
 from redis.exceptions import RedisError
 
 from caesura.service.api_keys.key_file import KeyFile
+from caesura.service.http.outgoing.address_policy import AddressPolicy
+from caesura.service.http.outgoing.allowed_hosts import AllowedHosts
 from caesura.service.http.stream_limit import StreamLimit
-from caesura.service.problems.status_table import Refusal
+from caesura.service.problems.problem_response import RequestProblem
 from caesura.service.settings import ServiceSettings
 from caesura.worker.private_folder import make_private
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.records import content_ids
 from caesura.worker.records.async_records import AsyncRecords
 from caesura.worker.records.connection import connect
-from caesura.worker.records.layout_version import check_layout
 from caesura.worker.records.record_types import AnimationRecord, SegmentationRecord
+from caesura.worker.records.storage_version import check_layout
 from caesura.worker.store.blobs import Blobs
 from caesura.worker.store.temporary_files import delete_abandoned_files
 
@@ -37,6 +39,10 @@ class Backend:
     blobs: Blobs
     key_file: KeyFile
     stream_limit: StreamLimit = field(default_factory=StreamLimit)
+    address_policy: AddressPolicy = field(default_factory=AddressPolicy)
+    upload_hosts: AllowedHosts = field(default_factory=lambda: AllowedHosts(""))
+    fetches: int = 0
+    """Uploads by URL that are under way."""
     _waits: set[CancelScope] = field(default_factory=set)
 
     @cached_property
@@ -53,14 +59,14 @@ class Backend:
         """The animation, or the refusal to say whether it exists."""
         record = await self.records.owned_animation(identifier, owner)
         if record is None:
-            raise Refusal("not-found", f"There is no animation {identifier}. It may have been deleted.")
+            raise RequestProblem("not-found", f"There is no animation {identifier}. It may have been deleted.")
         return record
 
     async def segmentation(self, identifier: str, owner: str) -> SegmentationRecord:
         """The segmentation, or the refusal to say whether it exists."""
         record = await self.records.owned_segmentation(identifier, owner)
         if record is None:
-            raise Refusal("not-found", f"There is no segmentation {identifier}. It may have been deleted.")
+            raise RequestProblem("not-found", f"There is no segmentation {identifier}. It may have been deleted.")
         return record
 
     @contextmanager
@@ -104,7 +110,15 @@ async def open_backend(settings: ServiceSettings) -> AsyncIterator[Backend]:
     try:
         make_private(settings.data_dir)
         blobs = Blobs.open(settings.store_location, settings.scratch_dir)
-        backend = Backend(settings, records, jobs, blobs, KeyFile(settings.keys_file))
+        backend = Backend(
+            settings,
+            records,
+            jobs,
+            blobs,
+            KeyFile(settings.keys_file),
+            address_policy=AddressPolicy(settings.private_networks),
+            upload_hosts=AllowedHosts(settings.upload_hosts),
+        )
         with suppress(RedisError):  # it need not be up yet; the workers look too
             await to_thread.run_sync(check_layout, client)
         await to_thread.run_sync(

@@ -97,6 +97,7 @@ class _SharedMetrics(Collector):
             yield GaugeMetricFamily(f"caesura_{name}", help_, value=value)
         yield _counter("segmentations", "Segmentations by the state they reached.", ["status", "code"], worker_counters)
         yield _counter("lost", "Attempts lost to a fault of the machine and tried again.", ["code"], worker_counters)
+        yield _counter("webhooks", "Webhooks by what became of a call.", ["outcome"], worker_counters)
         yield _histogram("waited", "Seconds from queued to started.", "queue", worker_counters)
         yield _histogram("stage", "Seconds of a stage of an attempt.", "stage", worker_counters)
 

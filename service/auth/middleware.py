@@ -15,7 +15,7 @@ from caesura.service.auth.origins import OriginPolicy
 from caesura.service.auth.request_owner import LOCAL_OWNER
 from caesura.service.backend import Backend
 from caesura.service.problems.exception_handlers import unavailable
-from caesura.service.problems.status_table import Refusal, refusal_response
+from caesura.service.problems.problem_response import RequestProblem, request_problem_response
 from caesura.service.settings import ServiceSettings
 from caesura.worker.records.connection import tolerate_full_disk
 
@@ -25,7 +25,7 @@ METRICS = "/metrics"
 SAFE = frozenset({"GET", "HEAD", "OPTIONS"})
 
 
-class UnknownCaller(Refusal):
+class UnknownCaller(RequestProblem):
     """Nobody that is known here. The same for a key that never was and for one that is revoked."""
 
     headers = {"WWW-Authenticate": 'Bearer realm="caesura"'}  # noqa: RUF012  as every refusal has them, never changed
@@ -38,7 +38,7 @@ class AuthenticationMiddleware:
         self._app = app
         self._keys_needed = settings.keys_needed
         self._limit = settings.rate_limit
-        self._origins = OriginPolicy(settings.public_hosts)
+        self._origins = OriginPolicy(settings.public_hosts, settings.page_origins)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Admit or refuse."""
@@ -48,8 +48,8 @@ class AuthenticationMiddleware:
         request = Request(scope)
         try:
             rate_headers = await self._admit(request)
-        except Refusal as refused:
-            await refusal_response(refused)(scope, receive, send)
+        except RequestProblem as refused:
+            await request_problem_response(refused)(scope, receive, send)
             return
         except RedisError as fault:
             await unavailable(fault)(scope, receive, send)
@@ -77,8 +77,8 @@ class AuthenticationMiddleware:
             raise _unknown_caller(request)
         if known is not None:
             self._check_reach(known, request.scope["path"])
-        if known is not None and known.by_cookie and not reading:
-            self._origins.check_named(request.headers)
+        if known is not None and known.by_cookie:
+            self._origins.check_cookie(request.headers, reading=reading)
         request.state.visitor = known
         return rate_headers
 
@@ -88,7 +88,7 @@ class AuthenticationMiddleware:
             return
         wanted = "This key opens /metrics and nothing else." if known.metrics else "This key does not open /metrics."
         detail = f"{wanted} The operator of this service can make one: caesura keys add NAME"
-        raise Refusal("not-allowed", detail + ("." if known.metrics else " --metrics."))
+        raise RequestProblem("not-allowed", detail + ("." if known.metrics else " --metrics."))
 
     async def _count(self, backend: Backend, request: Request, known: Caller | None) -> dict[str, str]:
         if not self._limit:
@@ -103,10 +103,10 @@ class AuthenticationMiddleware:
 
 def _is_page(path: str) -> bool:
     """The page itself and what describes the API are the same for everybody, and say nothing of anybody."""
-    return path in {"/", "/openapi.json"} or path.startswith(("/static/", "/view/"))
+    return path in {"/", "/docs", "/openapi.json"} or path.startswith(("/static/", "/view/"))
 
 
-def _unknown_caller(request: Request) -> Refusal:
+def _unknown_caller(request: Request) -> RequestProblem:
     if "authorization" in request.headers:
         return UnknownCaller("unknown-key", "This key opens nothing here: it is wrong, or it was revoked.")
     detail = "Send an API key: `Authorization: Bearer KEY`. The operator makes one: caesura keys add NAME."

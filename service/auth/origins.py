@@ -6,48 +6,59 @@ its own name lead to 127.0.0.1 (DNS rebinding) and is of the same origin then, b
 An address made of numbers can be nobody else's name.
 """
 
+from collections.abc import Collection
 from functools import lru_cache
 from ipaddress import ip_address
 from urllib.parse import urlsplit
 
 from starlette.datastructures import Headers
 
-from caesura.service.problems.status_table import Refusal
+from caesura.service.problems.problem_response import RequestProblem
 
 DEFAULT_PORTS = {"http": 80, "https": 443}
 
 
 class OriginPolicy:
-    """The names of the service: `localhost`, every address, and those that `public` lists with commas between."""
+    """The names of the service: `localhost`, every address, and those that `public` lists with commas between.
 
-    def __init__(self, public: str) -> None:
+    `pages` are origins of other sites that the operator lets in; never with the cookie of ours.
+    """
+
+    def __init__(self, public: str, pages: Collection[str] = ()) -> None:
+        self._pages = frozenset(pages)
         self._names = {_host_name(host) for host in public.split(",") if host.strip()} | {"localhost"}
 
     def check_host(self, headers: Headers) -> None:
-        """Raises `Refusal` ("foreign-host") where the browser was led here by a name that is not ours."""
+        """Raises `RequestProblem` ("foreign-host") where the browser was led here by a name that is not ours."""
         name = _host_name(headers.get("host", ""))
         if name not in self._names and not _is_address(name):
             detail = f"This service is not called {name!r}. Its operator can add the name to CAESURA_PUBLIC_HOSTS."
-            raise Refusal("foreign-host", detail, setting="CAESURA_PUBLIC_HOSTS")
+            raise RequestProblem("foreign-host", detail, setting="CAESURA_PUBLIC_HOSTS")
 
     def check_origin(self, headers: Headers, *, following: bool) -> None:
-        """Raises `Refusal` ("foreign-origin") where a page elsewhere asks.
+        """Raises `RequestProblem` ("foreign-origin") where a page elsewhere asks.
 
         `following`: a link may lead here from anywhere, for what it shows is seen by nobody else.
         """
         origin = headers.get("origin")
         if origin is not None:
-            if not self._is_own_name(origin, headers.get("host", "")):
+            if origin not in self._pages and not self._is_own_name(origin, headers.get("host", "")):
                 raise _foreign_origin(f"A page of {origin}")
             return
         followed = following and headers.get("sec-fetch-mode") == "navigate"
         if headers.get("sec-fetch-site") in {"cross-site", "same-site"} and not followed:
             raise _foreign_origin("A page of another site")
 
-    def check_named(self, headers: Headers) -> None:
-        """Raises `Refusal` ("foreign-origin") where nothing says which page asks: a browser always does."""
-        if "origin" not in headers:
+    def check_cookie(self, headers: Headers, *, reading: bool) -> None:
+        """Raises `RequestProblem` ("foreign-origin") where a cookie comes from a page that is not ours.
+
+        A change says which page asks, for a browser always does. A page of another site has a key of its own.
+        """
+        origin = headers.get("origin")
+        if origin is None and not reading:
             raise _foreign_origin("A page that does not say its origin")
+        if origin is not None and not self._is_own_name(origin, headers.get("host", "")):
+            raise _foreign_origin(f"A page of {origin}")
 
     def _is_own_name(self, origin: str, host: str) -> bool:
         try:
@@ -62,8 +73,8 @@ class OriginPolicy:
         return same or page.hostname in self._names - {"localhost"}
 
 
-def _foreign_origin(page: str) -> Refusal:
-    return Refusal("foreign-origin", f"{page} may not use this service from a browser; only its own page may.")
+def _foreign_origin(page: str) -> RequestProblem:
+    return RequestProblem("foreign-origin", f"{page} may not use this service from a browser; only its own page may.")
 
 
 @lru_cache(maxsize=64)

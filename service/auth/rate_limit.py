@@ -10,7 +10,7 @@ from ipaddress import IPv6Address, ip_address
 
 import redis.asyncio
 
-from caesura.service.problems.status_table import Refusal
+from caesura.service.problems.problem_response import RequestProblem
 from caesura.worker.records import redis_keys
 
 WINDOW_SECONDS = 60
@@ -47,7 +47,7 @@ class RateAllowance:
         }
 
 
-class TooManyRequests(Refusal):
+class TooManyRequests(RequestProblem):
     """Ask again later; `headers` say when."""
 
     def __init__(self, allowed: RateAllowance) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 from fastapi import Request
 from starlette.datastructures import Headers
 
-from caesura.service.problems.status_table import Refusal
+from caesura.service.problems.problem_response import RequestProblem
 
 
 def is_json(headers: Headers) -> bool:
@@ -18,12 +18,12 @@ def is_json(headers: Headers) -> bool:
 
 
 async def read_json_body(request: Request, example: str) -> dict[str, Any]:
-    """The object that the body is; raises `Refusal` for what is no JSON object."""
+    """The object that the body is; raises `RequestProblem` for what is no JSON object."""
     try:
         given = json.loads(await request.body())
         json.dumps(given, ensure_ascii=False).encode()  # half a surrogate pair is no text: no key and no answer
     except (ValueError, RecursionError):
-        raise Refusal("malformed-json", "The body is no JSON.") from None
+        raise RequestProblem("malformed-json", "The body is no JSON.") from None
     if not isinstance(given, dict):
-        raise Refusal("malformed-json", f"The JSON must be an object, such as {example}.")
+        raise RequestProblem("malformed-json", f"The JSON must be an object, such as {example}.")
     return given

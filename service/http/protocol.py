@@ -12,7 +12,7 @@ from typing import Any
 
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
 
-from caesura.service.problems.status_table import MEDIA_TYPE
+from caesura.service.problems.problem_response import MEDIA_TYPE
 
 MOST_HEAD_BYTES = 64 * 1024
 """Of a request's head, and of what follows a body. A longer head that comes in one piece is read all the same."""
@@ -22,7 +22,7 @@ MOST_UNSENT_BYTES = 128 * 1024
 
 TOO_LARGE = {
     "type": "urn:caesura:problem:head-too-large",
-    "title": "Head too large",
+    "title": "Request head too large",
     "status": 431,
     "kind": "request",
     "code": "head-too-large",

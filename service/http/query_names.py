@@ -21,5 +21,5 @@ async def refuse_unknown_names(request: Request) -> None:
 
 def _documented_names(app: FastAPI, path: str, method: str) -> list[str]:
     """The query names of a call, as the OpenAPI document lists them."""
-    parameters = app.openapi()["paths"][path][method].get("parameters", [])
+    parameters = app.openapi()["paths"].get(path, {}).get(method, {}).get("parameters", [])
     return [parameter["name"] for parameter in parameters if parameter["in"] == "query"]

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 from starlette.requests import Request
 
-from caesura.service.problems.status_table import Refusal
+from caesura.service.problems.problem_response import RequestProblem
 
 MOST_STREAMS = 200
 """Of one key and address, at one web process: more than anybody's tabs, and far fewer than there are connections."""
@@ -14,7 +14,7 @@ MOST_STREAMS = 200
 StreamClient = tuple[str, str]
 
 
-class TooManyStreams(Refusal):
+class TooManyStreams(RequestProblem):
     """Close one, or ask for the status instead."""
 
     headers = {"Retry-After": "10"}  # noqa: RUF012  as every refusal has them, never changed

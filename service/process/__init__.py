@@ -2,5 +2,5 @@
 
 supervisor     starts and watches the embedded Redis, the workers and the web process
 child_process  one child, started again when it ends
-web            the web process
+web_process    the web process
 """

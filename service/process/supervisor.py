@@ -12,16 +12,16 @@ import time
 from collections.abc import Callable
 from contextlib import closing
 
-from caesura.service.http.address import address_of_socket, is_answering, open_listening_socket
+from caesura.service.http.listening_socket import address_of_socket, is_answering, open_listening_socket
 from caesura.service.process.child_process import ChildProcess
 from caesura.service.settings import ServiceSettings
 from caesura.worker.embedded_redis.server import EmbeddedRedis
 from caesura.worker.private_folder import make_private
 from caesura.worker.process.worker_registry import remove_dead_workers
 from caesura.worker.queue.jobs import Jobs
-from caesura.worker.queue.orphaned_jobs import recover_orphaned_jobs
+from caesura.worker.queue.orphaned_jobs import retry_jobs_after_restart
 from caesura.worker.records.connection import connect, tolerate_full_disk
-from caesura.worker.records.layout_version import check_layout
+from caesura.worker.records.storage_version import check_layout
 
 log = logging.getLogger(__name__)
 
@@ -60,7 +60,7 @@ def _watch_children(
     environment = settings.environment()
     number = listening.fileno()
     web = ChildProcess(
-        "the web process", ["caesura.service.process.web", "--socket", str(number)], environment, (number,)
+        "the web process", ["caesura.service.process.web_process", "--socket", str(number)], environment, (number,)
     )
     workers = ChildProcess("the worker pool", ["caesura.worker"], environment)
     ready = False
@@ -89,7 +89,7 @@ def _resume_jobs(settings: ServiceSettings) -> None:
     client = connect(settings.redis_location)
     check_layout(client)
     remove_dead_workers(client)
-    lost = recover_orphaned_jobs(Jobs.open(settings))
+    lost = retry_jobs_after_restart(Jobs.open(settings))
     if lost:
         log.warning("%d jobs were running when the service ended; they are tried again", lost)
 

@@ -12,22 +12,36 @@ from starlette.responses import FileResponse
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
+from caesura.service.api_description.format_documents import list_formats_as_html
 from caesura.service.http.security_headers import page_policy
-from caesura.service.problems.status_table import Refusal
+from caesura.service.problems.problem_response import RequestProblem
 
 STATIC = Path(__file__).resolve().parent.parent / "static"
+
+FORMATS = "<!-- formats -->"
+"""Stands in the page for the kinds of files that can be dropped on it."""
 
 router = APIRouter(include_in_schema=False)
 
 
 @router.get("/")
 @router.get("/view/{identifier}")
+@router.get("/collection/{identifier}")
 async def page() -> Response:
     """The viewer; what it shows, it reads off its own address."""
     index = AsyncPath(STATIC / "index.html")
     if not await index.is_file():
-        raise Refusal("not-found", "The page is not installed here. The API is: see /openapi.json.")
-    html = await index.read_text(encoding="utf-8")
+        raise RequestProblem("not-found", "The page is not installed here. The API is: see /openapi.json.")
+    html = (await index.read_text(encoding="utf-8")).replace(FORMATS, list_formats_as_html())
+    return HTMLResponse(html, headers={"Content-Security-Policy": page_policy(html), "Cache-Control": "no-cache"})
+
+
+@router.get("/docs")
+async def api_reference() -> Response:
+    """Every call of the API, to read and to try."""
+    if not await AsyncPath(STATIC / "vendor" / "swagger-ui").is_dir():
+        raise RequestProblem("not-found", "The page of the API is not installed here. The API is: see /openapi.json.")
+    html = await AsyncPath(STATIC / "docs.html").read_text(encoding="utf-8")
     return HTMLResponse(html, headers={"Content-Security-Policy": page_policy(html), "Cache-Control": "no-cache"})
 
 

@@ -4,7 +4,8 @@ from anyio import to_thread
 from fastapi import APIRouter, Request, Response
 
 from caesura.core.revision import check_edits
-from caesura.service.api_description.descriptions import REVISED, REVISION_BODY
+from caesura.service.api_description.media_types import REVISED, REVISION
+from caesura.service.api_description.request_bodies import REVISION_BODY
 from caesura.service.auth.request_owner import Owner
 from caesura.service.backend import Backend, BackendDependency
 from caesura.service.response_documents import RevisionDocument, RevisionEntry, RevisionList
@@ -17,7 +18,7 @@ from caesura.service.results.revision_request import (
     revised_document,
     revision_number,
 )
-from caesura.service.segmentations.status_response import status_response
+from caesura.service.segmentations.document_response import document_response
 from caesura.worker.records.record_types import RevisionRecord, SegmentationRecord
 from caesura.worker.records.revisions import Revisions, add_revision
 
@@ -25,10 +26,11 @@ router = APIRouter(prefix="/v1/segmentations/{identifier}/revisions", tags=["rev
 
 
 @router.post("", status_code=201, response_model=RevisionDocument, responses=REVISED, openapi_extra=REVISION_BODY)
-async def create(identifier: str, request: Request, backend: BackendDependency, owner: Owner) -> Response:
-    """Keep the segments as a person has set them, as the newest revision; the computed result stays as it is.
+async def create_revision(identifier: str, request: Request, backend: BackendDependency, owner: Owner) -> Response:
+    """Keep the segments as a person has set them.
 
-    If-Match names the revision that was edited: where another has come since, 412 and nothing is kept.
+    They are the newest revision; the computed result stays as it is. If-Match names the revision that was edited:
+    where another has come since, 412 and nothing is kept.
     """
     record = await backend.segmentation(identifier, owner)
     refused = unfinished_response(request, record)
@@ -41,26 +43,32 @@ async def create(identifier: str, request: Request, backend: BackendDependency, 
     if kept is None:
         raise refuse_stale_revision(await backend.segmentation(identifier, owner))
     headers = {"Location": f"/v1/segmentations/{identifier}/revisions/{kept.number}", "ETag": f'"{kept.number}"'}
-    return status_response(await _document(backend, record, kept), 201, headers)
+    return document_response(await _document(backend, record, kept), 201, headers)
 
 
 @router.get("", response_model=RevisionList)
-async def revisions(identifier: str, request: Request, backend: BackendDependency, owner: Owner) -> Response:
-    """Every revision without its segments, the computed result first; the ETag is that of the newest."""
+async def list_revisions(identifier: str, request: Request, backend: BackendDependency, owner: Owner) -> Response:
+    """List all revisions of a result, the computed one first.
+
+    They come without their segments. The ETag is that of the newest.
+    """
     record = await backend.segmentation(identifier, owner)
     refused = unfinished_response(request, record)
     if refused is not None:
         return refused
     kept = [_computed_revision(record), *await Revisions(backend.records).all(identifier)]
     entries = tuple(RevisionEntry.of(identifier, one) for one in kept)
-    return status_response(RevisionList(revisions=entries), 200, cache_headers(f'"{kept[-1].number}"'))
+    return document_response(RevisionList(revisions=entries), 200, cache_headers(f'"{kept[-1].number}"'))
 
 
-@router.get("/{revision}", response_model=RevisionDocument)
-async def revision(
+@router.get("/{revision}", response_model=RevisionDocument, responses=REVISION)
+async def get_revision(
     identifier: str, revision: str, request: Request, backend: BackendDependency, owner: Owner
 ) -> Response:
-    """One revision with its segments: 0 is the result as computed, `latest` the newest."""
+    """Fetch one revision with its segments.
+
+    0 is the result as computed, `latest` the newest revision.
+    """
     record = await backend.segmentation(identifier, owner)
     refused = unfinished_response(request, record)
     if refused is not None:
@@ -70,7 +78,7 @@ async def revision(
     if is_not_modified(request, headers["ETag"]):
         return Response(status_code=304, headers=headers)
     kept = await Revisions(backend.records).one(identifier, number) if number else None
-    return status_response(
+    return document_response(
         await _document(backend, record, kept[0] if kept else _computed_revision(record)), 200, headers
     )
 

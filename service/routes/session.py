@@ -8,7 +8,7 @@ from caesura.service.auth import sessions
 from caesura.service.auth.authentication import find_key
 from caesura.service.auth.middleware import UnknownCaller
 from caesura.service.backend import BackendDependency
-from caesura.service.problems.status_table import Refusal
+from caesura.service.problems.problem_response import RequestProblem
 
 router = APIRouter(prefix="/v1/session", tags=["session"])
 
@@ -21,12 +21,17 @@ class SignIn(BaseModel):
 
 @router.post("", status_code=204)
 async def sign_in(request: Request, backend: BackendDependency, given: SignIn) -> Response:
-    """Give a key, get a cookie that stands for it until its time is up, or the key is revoked."""
+    """Sign a browser in.
+
+    The answer sets a cookie that stands for the key until its time is up, or the key is revoked.
+    """
     record = await find_key(backend, digest_of(given.key.strip()))
     if record is None:
         raise UnknownCaller("unknown-key", "This key opens nothing here: it is wrong, or it was revoked.")
     if record.metrics:
-        raise Refusal("not-allowed", "This key opens /metrics and nothing else. Sign in with one that sees takes.")
+        raise RequestProblem(
+            "not-allowed", "This key opens /metrics and nothing else. Sign in with one that sees takes."
+        )
     response = Response(status_code=204)
     await sessions.begin_session(backend.records.redis, record.digest, request, response)
     return response
@@ -34,7 +39,10 @@ async def sign_in(request: Request, backend: BackendDependency, given: SignIn) -
 
 @router.delete("", status_code=204)
 async def sign_out(request: Request, backend: BackendDependency) -> Response:
-    """The cookie stands for nothing any more."""
+    """Sign a browser out.
+
+    Its cookie stands for nothing any more.
+    """
     response = Response(status_code=204)
     await sessions.end_session(backend.records.redis, request, response)
     return response
