@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, BrowserType, Page, sync_playwright
+from playwright.sync_api import Browser, BrowserType, Page, expect, sync_playwright
 
 SOFTWARE_WEBGL = [
     "--use-angle=swiftshader",
@@ -20,6 +20,7 @@ SOFTWARE_WEBGL = [
     "--force-device-scale-factor=1",
 ]
 PATIENCE_MS = 30_000
+expect.set_options(timeout=PATIENCE_MS)  # a busy machine shows what is expected later, not otherwise
 
 
 @pytest.fixture(scope="session")
@@ -53,15 +54,15 @@ def address(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterato
         service.stdout.close()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def chromium_type(node: Path) -> Iterator[BrowserType]:
-    """What launches Chromium."""
+    """What launches Chromium. Its event loop in this thread must end before another module needs its own."""
     os.environ["PLAYWRIGHT_NODEJS_PATH"] = str(node)
     with sync_playwright() as playwright:
         yield playwright.chromium
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser(chromium_type: BrowserType, chromium: Path) -> Iterator[Browser]:
     """Debian's Chromium, drawing WebGL in software."""
     launched = chromium_type.launch(executable_path=chromium, headless=True, args=SOFTWARE_WEBGL)
@@ -72,6 +73,8 @@ def browser(chromium_type: BrowserType, chromium: Path) -> Iterator[Browser]:
 def tab(browser: Browser, address: str) -> Iterator[Page]:
     """A tab of its own. An error that the page itself makes fails the test."""
     context = browser.new_context(viewport={"width": 1100, "height": 720}, base_url=address)
+    # In the order of time, in which tests count segments; tests of the list by motion choose it.
+    context.add_init_script("localStorage['caesura.list-by'] ??= JSON.stringify('time')")
     page = context.new_page()
     page.set_default_timeout(PATIENCE_MS)
     errors: list[str] = []

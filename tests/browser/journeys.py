@@ -10,7 +10,7 @@ def opened(page: Page, file: Path) -> str:
     """Choose a file on the first page and wait for its result; answers the address."""
     page.goto("/")
     page.locator("#drop input").set_input_files(file)
-    expect(page.locator("#curve canvas")).to_be_visible(timeout=90_000)
+    expect(page.locator("#segments li").first).to_be_visible(timeout=90_000)
     expect(page.locator("#figure")).to_have_attribute("data-shown", re.compile("gltf|vertices"), timeout=30_000)
     return page.url
 

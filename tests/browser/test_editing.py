@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from caesura.core.limits import Limits
-from caesura.formats.file_header import read_header
+from caesura.formats.upload_summary import read_header
 from tests.browser.journeys import cut_x, opened, saved, starts
 
 pytestmark = pytest.mark.timeout(240)
@@ -50,6 +50,37 @@ def test_a_cut_is_dragged_and_still_there_after_a_reload(result: Page) -> None:
     assert starts(result) == moved
 
 
+def test_a_press_beside_a_cut_moves_it_only_once_it_is_dragged(result: Page) -> None:
+    """A hand that shakes by a pixel changes nothing; a drag keeps its distance, leaves no sliver; Escape ends it."""
+    before = starts(result)
+    box = result.locator("#timeline").bounding_box()
+    assert box is not None
+    x, y = cut_x(result, before[2]), box["y"] + box["height"] / 2
+    frames_per_pixel = 100 / (cut_x(result, 100) - cut_x(result, 0))
+    result.mouse.move(x + 4, y)
+    result.mouse.down()
+    result.mouse.move(x + 5, y)
+    result.mouse.up()
+    expect(result.locator("#cut-frame")).to_have_value(str(before[2]))
+    assert starts(result) == before
+    expect(result.locator("#kept-word")).to_have_text("As computed")
+    result.mouse.move(x + 4, y)
+    result.mouse.down()
+    result.mouse.move(x + 4 + 23, y, steps=4)
+    assert starts(result)[2] == pytest.approx(before[2] + 20 * frames_per_pixel, abs=1)
+    result.keyboard.press("Escape")
+    assert starts(result) == before
+    result.mouse.move(x + 60, y)
+    result.mouse.up()
+    assert starts(result) == before
+    result.mouse.move(x, y)
+    result.mouse.down()
+    result.mouse.move(x + 700, y, steps=4)
+    result.mouse.up()
+    assert starts(result)[2] == before[3] - 3
+    saved(result)
+
+
 def test_a_cut_is_nudged_and_undone_by_keys_alone(result: Page) -> None:
     """Select, three frames on, undo as one step, redo; both poses are named with their frames."""
     before = starts(result)
@@ -69,6 +100,25 @@ def test_a_cut_is_nudged_and_undone_by_keys_alone(result: Page) -> None:
     saved(result)
 
 
+def test_repetitions_stay_marked_while_a_cut_moves(result: Page) -> None:
+    """Those that begin before the cut are there at once, and after the service has saved it."""
+    row = result.locator("#timeline").bounding_box()
+    before = starts(result)
+    assert row is not None
+
+    def repetition() -> str:
+        result.mouse.move(cut_x(result, before[2] + 20), row["y"] + 10)
+        return result.locator("#hover").inner_text()
+
+    assert re.search(r", 1 of \d", repetition())
+    result.locator("#timeline").focus()
+    for key in ("Home", "]", "]", "ArrowRight", "ArrowRight"):
+        result.keyboard.press(key)
+    assert re.search(r", 1 of \d", repetition())
+    saved(result)
+    assert re.search(r", 1 of \d", repetition())
+
+
 def test_segments_are_split_and_merged(result: Page) -> None:
     """A split is one more segment of the same motion; merging over its cut is as before."""
     before = starts(result)
@@ -82,12 +132,12 @@ def test_segments_are_split_and_merged(result: Page) -> None:
 
 
 def test_an_edit_that_cannot_be_kept_says_so_and_is_tried_again(result: Page) -> None:
-    """While the service does not answer nothing is called saved, and nothing is lost."""
+    """While the service does not answer nothing is called saved, and nothing is lost; once it answers, it is saved."""
     result.route("**/revisions", lambda route: route.abort() if route.request.method == "POST" else route.continue_())
     result.locator("#flag-loop").click()
     expect(result.locator("#kept-word")).to_contain_text("Not saved. The service does not answer")
+    expect(result.locator("#kept-word")).to_contain_text("The page tries again")
     result.unroute("**/revisions")
-    result.get_by_role("button", name="Try again").click()
     saved(result)
     expect(result.locator("#flag-loop")).to_have_attribute("aria-pressed", "true")
 
@@ -143,7 +193,7 @@ def test_every_form_is_of_the_revision_that_is_shown(result: Page) -> None:
     hrefs = [link.get_attribute("href") or "" for link in links.all()]
     assert len(hrefs) >= 9
     assert all(re.search(r"\?revision=\d+$", href) for href in hrefs)
-    result.locator(".menu summary").click()
+    result.locator("#downloads summary").click()
     with result.expect_download() as saving:
         result.locator("[data-form=json]").click()
     assert saving.value.suggested_filename == "smooth.json"

@@ -25,7 +25,7 @@ def test_a_motion_called_like_another_becomes_it_and_a_new_one_gets_a_free_lette
     """Names and motions stay one to one, whatever a person types."""
     renamed, joined, fresh, spaced = answer(f"""{SEGMENTS}
         console.log(JSON.stringify([edits.renameMotion(all, 0, ' walk '), edits.renameMotion(all, 2, 'B'),
-            edits.assignMotion(all, 2, null), edits.renameMotion(all, 1, '  ')].map(told)));
+            edits.assignMotion(all, [2], null), edits.renameMotion(all, 1, '  ')].map(told)));
     """)
     assert [name for *_, name in renamed] == ["walk", "B", "walk", "C"]
     assert [tuple(one[2:]) for one in joined] == [(0, "A"), (1, "B"), (0, "A"), (1, "B")]

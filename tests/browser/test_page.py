@@ -62,11 +62,12 @@ def test_the_figure_is_drawn_and_strain_colours_it(result: Page) -> None:
     """There are opaque pixels in the 3D view, and warm ones as soon as the body bends."""
     result.locator("#frame").fill("60")
     result.locator("#frame").press("Enter")
+    result.get_by_text("Strain", exact=True).click()
     result.wait_for_timeout(500)
     strained = figure_pixels(result)
     body = strained[..., 3] > 250
     assert 0.02 < body.mean() < 0.6
-    result.get_by_text("Plain", exact=True).click()
+    result.get_by_text("Model", exact=True).click()
     plain = figure_pixels(result)
     changed = (np.abs(strained[..., :3] - plain[..., :3]).max(axis=2) > 12) & body
     assert changed.sum() > 5

@@ -67,7 +67,7 @@ def test_two_fingers_keep_the_frames_under_them(answer) -> None:
     """Apart they zoom in, aside they move; one finger alone, or two on the same place, change nothing; of three, the
     outer ones count."""
     on, seen = answer("""
-        import { Pinch } from 'VIEWER/timeline/pointer.js';
+        import { Pinch } from 'VIEWER/timeline/pinch.js';
         import { VisibleRange } from 'VIEWER/timeline/visible_range.js';
         const span = new VisibleRange(1000);
         const pinch = new Pinch(span);

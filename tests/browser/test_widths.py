@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Browser, Page, expect
 
 from tests.browser.journeys import opened
 
@@ -19,6 +19,11 @@ STICKING_OUT = """() => [...document.querySelectorAll('header *, #stage *, #deck
     }).map((one) => `${one.localName} ${one.id || one.className || one.parentElement.id}`)"""
 
 
+SMALL_TARGETS = """() => [...document.querySelectorAll('button, select, a.button, label.chip, #looks span, summary')]
+    .filter((one) => one.getClientRects().length && one.getBoundingClientRect().height < 39.5)
+    .map((one) => `${one.id || one.className || one.textContent} ${one.getBoundingClientRect().height}`)"""
+
+
 @pytest.fixture(scope="module")
 def result(kept_page: Page, own: Path) -> Page:
     """The result of our own figure, with a motion of a long name."""
@@ -26,6 +31,16 @@ def result(kept_page: Page, own: Path) -> Page:
     kept_page.locator("#motion-name").fill(LONG)
     kept_page.locator("#motion-name").press("Enter")
     return kept_page
+
+
+def settled(page: Page) -> list[str]:
+    """What sticks out once the curve has taken its new width, which a busy machine draws late."""
+    for _ in range(30):
+        found: list[str] = page.evaluate(STICKING_OUT)
+        if not found:
+            break
+        page.wait_for_timeout(100)
+    return found
 
 
 @pytest.mark.parametrize("width", [360, 400, 820, 1280])
@@ -36,7 +51,7 @@ def test_nothing_sticks_out_of_its_part_of_the_page(result: Page, width: int) ->
         result.keyboard.press(key)
         result.wait_for_timeout(200)
         assert result.evaluate("document.documentElement.scrollWidth") <= width
-        assert result.evaluate(STICKING_OUT) == []
+        assert settled(result) == []
     expect(result.locator("#merge")).to_be_in_viewport()
 
 
@@ -66,6 +81,22 @@ def test_a_cut_is_chosen_moved_and_merged_with_a_thumb(result: Page) -> None:
     expect(result.locator("#motion-name")).to_be_visible()
     result.locator("#undo").click()
     expect(result.locator("#segments li")).to_have_count(segments)
+
+
+def test_a_finger_finds_everything_on_a_phone(result: Page, browser: Browser, address: str) -> None:
+    """Upright the facts are whole and every target is 40 pixels high; on its side the timeline is in view."""
+    context = browser.new_context(
+        base_url=address, viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True
+    )
+    page = context.new_page()
+    page.goto(result.url)
+    expect(page.locator("#segments li").first).to_be_visible(timeout=30_000)
+    assert page.evaluate("(({ scrollWidth, clientWidth }) => scrollWidth <= clientWidth)(subject)")
+    assert page.evaluate(SMALL_TARGETS) == []
+    page.set_viewport_size({"width": 844, "height": 390})
+    expect(page.locator("#timeline")).to_be_in_viewport(ratio=1)
+    assert page.evaluate("document.documentElement.scrollWidth") <= 844
+    context.close()
 
 
 def test_a_phone_shows_one_face_at_a_time(page: Page) -> None:

@@ -120,7 +120,10 @@ def with_its_own_redis(checkout, folder, workers, **settings):
 @pytest.fixture(scope="session")
 def service(checkout, tmp_path_factory):
     """The whole service, shared by all tests: each sends a take of its own."""
-    with with_its_own_redis(checkout, tmp_path_factory.mktemp("service"), workers=True) as running:
+    folder = tmp_path_factory.mktemp("service")
+    with with_its_own_redis(
+        checkout, folder, workers=True, private_networks="127.0.0.1", upload_hosts="127.0.0.1"
+    ) as running:
         yield running
 
 

@@ -4,6 +4,7 @@ import pytest
 
 from caesura.core.limits import Limits
 from caesura.core.registry.methods import METHODS
+from caesura.formats.input_formats import INPUT_FORMATS
 from tests.service.conftest import UPLOAD_LIMIT
 
 
@@ -26,16 +27,29 @@ def test_each_export_has_an_address_that_openapi_knows(idle):
     paths = idle.http.get("/openapi.json").json()["paths"]
     exports = idle.http.get("/v1/exports").json()["exports"]
     for export in exports:
-        stem, dot, _ = export["path"].partition(".")
-        assert f"/v1/segmentations/{{identifier}}/{stem}{dot and '.{suffix}'}" in paths
+        assert f"/v1/segmentations/{{identifier}}/{export['path']}" in paths
         assert export["title"]
         assert export["description"]
     assert len({export["title"] for export in exports}) == len(exports)
 
 
+def test_each_format_says_what_of_it_is_read(idle):
+    """Those of the table, with what must come beside a file; the page lists the same."""
+    formats = {one["name"]: one for one in idle.http.get("/v1/formats").json()["formats"]}
+    assert formats.keys() == INPUT_FORMATS.keys()
+    assert all(one["title"] and one["description"] and one["suffixes"] for one in formats.values())
+    assert (formats["pc2"]["suffixes"], formats["pc2"]["companion"]) == ([".pc2"], ".obj")
+    assert (formats["glb"]["suffixes"], formats["glb"]["companion"]) == ([".glb", ".vrma"], None)
+    page = idle.http.get("/").text
+    assert "<code>.pc2</code> with its <code class='beside'>.obj</code>" in page
+    assert all(f"<code>{suffix}</code>" in page for one in formats.values() for suffix in one["suffixes"])
+
+
 def test_limits_are_those_of_this_installation(idle):
     """All of them, with the upload's own."""
-    assert idle.http.get("/v1/limits").json() == {**Limits().model_dump(), "max_upload_bytes": UPLOAD_LIMIT}
+    collections = {"max_collection_takes": 1000, "max_collection_seconds": 72_000}
+    limits = {**Limits().model_dump(), "max_upload_bytes": UPLOAD_LIMIT, **collections}
+    assert idle.http.get("/v1/limits").json() == limits
 
 
 def test_it_is_alive_and_ready(service):
@@ -58,7 +72,8 @@ def test_metrics_are_in_prometheus_form(idle):
         ("GET", "/v1/limits?x=1", 422, "unknown-parameter"),
         ("GET", "/v1/animations?limit=many", 422, "invalid-parameter"),
         ("GET", "/v1/animations?limit=1000", 422, "invalid-parameter"),
-        ("GET", "/v1/segmentations", 422, "invalid-parameter"),
+        ("GET", "/v1/segmentations?status=lost", 422, "invalid-parameter"),
+        ("GET", "/v1/segmentations?since=yesterday", 422, "invalid-parameter"),
         ("GET", "/v1/segmentations/nothing", 404, "not-found"),
         ("GET", "/v1/segmentations/nothing/result", 404, "not-found"),
         ("DELETE", "/v1/segmentations/nothing", 404, "not-found"),

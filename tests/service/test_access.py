@@ -11,9 +11,9 @@ from click.testing import CliRunner
 
 from caesura.service.api_keys.credentials import new_key
 from caesura.service.api_keys.key_file import key_file_line
+from caesura.service.api_keys.key_ring import KeyRing
 from caesura.service.app import create_app
 from caesura.service.commands.cli import main
-from caesura.service.commands.key_ring import KeyRing
 from caesura.service.settings import ServiceSettings
 from caesura.worker.records import Records
 from tests.service.conftest import serve, with_its_own_redis
@@ -24,7 +24,16 @@ OPEN = {"GET /healthz", "GET /readyz", "POST /v1/session", "DELETE /v1/session"}
 BESIDE = {"INFO", "PING", "LLEN", "HELLO", "CLIENT"}
 """What is asked once a second or less, or of a new connection, whoever comes."""
 
-HERE = {"suffix": "json", "number": "0", "n": "0", "revision": "0"}
+HERE = {
+    "motion": "m1",
+    "proposal": "p1",
+    "search": "s1",
+    "animation": "e" * 26,
+    "suffix": "json",
+    "number": "0",
+    "n": "0",
+    "revision": "0",
+}
 ELSEWHERE = "https://elsewhere.example"
 PATHS = create_app(ServiceSettings(data_dir=Path("never-made"))).openapi()["paths"]
 CALLS = [f"{method.upper()} {path}" for path, operations in PATHS.items() for method in operations]
@@ -53,7 +62,7 @@ class Guarded:
         self.ring = KeyRing(self.redis)
         self.mine, self.theirs, self.revoked = (self.key(name) for name in ("mine", "theirs", "revoked"))
         self.ring.revoke("revoked")
-        self.animation = self.segmentation = ""
+        self.animation = self.segmentation = self.collection = ""
 
     def key(self, name, owner=None):
         key, record = new_key(name, owner)
@@ -64,7 +73,9 @@ class Guarded:
         """The answer to `METHOD /path/{…}` about what the first owner has, or about what nobody has."""
         method, path = call.split(" ", 1)
         animation, segmentation = ("a" * 26, "b" * 26) if unknown else (self.animation, self.segmentation)
-        own = animation if path.startswith("/v1/animations") else segmentation
+        collection = "c" * 24 if unknown else self.collection
+        owns = {"animations": animation, "collections": collection}
+        own = owns.get(path.split("/")[2] if path.startswith("/v1/") else "", segmentation)
         path = path.replace("{identifier}", own)
         here = HERE | ({"suffix": "svg"} if "/plot." in path else {})
         path = re.sub(r"\{(\w+)\}", lambda match: here[match[1]], path)
@@ -95,7 +106,8 @@ class Guarded:
     def plain(self, answer):
         """What an answer says, but for the id that was asked for and the hour."""
         text = answer.text
-        for identifier, stand_in in ((self.animation, "A"), (self.segmentation, "S"), ("a" * 26, "A"), ("b" * 26, "S")):
+        known = ((self.animation, "A"), (self.segmentation, "S"), (self.collection, "C"))
+        for identifier, stand_in in (*known, ("a" * 26, "A"), ("b" * 26, "S"), ("c" * 24, "C")):
             text = text.replace(identifier, stand_in)
         headers = {name: value for name, value in answer.headers.items() if name not in {"date", "content-length"}}
         return (
@@ -116,6 +128,8 @@ def owned(guarded, take):
     answer = guarded.ask("POST /v1/segmentations", guarded.mine, content=take(700), headers={"Content-Type": "model/x"})
     assert answer.status_code == 202
     guarded.segmentation, guarded.animation = answer.json()["id"], answer.json()["animation"]
+    wanted = {"name": "all", "animations": [guarded.animation]}
+    guarded.collection = guarded.ask("POST /v1/collections", guarded.mine, json=wanted).json()["id"]
     return guarded
 
 

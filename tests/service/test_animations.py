@@ -58,6 +58,49 @@ def test_a_list_has_no_takes(service):
     assert len(own["takes"]) == 900
 
 
+def test_an_animation_is_called_otherwise_and_found_by_any_part_of_its_name(service, take):
+    """Its results are called so too, but for those that were named apart; the same bytes again bring their new name."""
+    content = take(208)
+    made = service.http.post("/v1/animations", params={"name": "first.npz"}, content=content).json()
+    address = f"/v1/animations/{made['id']}"
+    ask = {"headers": {"Prefer": "wait=30"}}
+    one = service.http.post("/v1/segmentations", json={"animation": made["id"]}, **ask).json()
+    other = service.http.post("/v1/segmentations", json={"animation": made["id"], "name": "mine", "motions": 2}, **ask)
+    assert service.http.patch(address, json={"name": "a/Grand Entrance.npz"}).json()["name"] == "Grand Entrance.npz"
+    names = [service.http.get(f"/v1/segmentations/{i}").json()["name"] for i in (one["id"], other.json()["id"])]
+    assert names == ["Grand Entrance.npz", "mine"]
+    found = service.http.get("/v1/animations", params={"search": "ENTRANCE", "limit": 1}).json()
+    assert [entry["id"] for entry in found["animations"]] == [made["id"]]
+    assert service.http.get(found["next"]).json() == {"animations": [], "next": None}
+    for wrong in ({}, {"name": ""}, {"name": "\u200b"}, {"name": "x" * 201}):
+        assert service.http.patch(address, json=wrong).status_code == 422
+    again = service.http.post("/v1/animations", params={"name": "second.npz"}, content=content)
+    assert (again.status_code, again.json()["name"]) == (200, "second.npz")
+    assert service.http.get(f"/v1/segmentations/{one['id']}").json()["name"] == "second.npz"
+
+
+def test_a_list_names_the_segmentation_that_a_person_edited_last(service, take):
+    """Null before the first edit, and once that segmentation has gone."""
+    ask = {"headers": {"Prefer": "wait=30"}}
+    content = take(209)
+    done = [service.http.post(f"/v1/segmentations?motions={k}", content=content, **ask).json() for k in (2, 3)]
+    address = f"/v1/animations/{done[0]['animation']}"
+    assert service.http.get(address).json()["edited"] is None
+    for status in done:
+        segments = [{key: one[key] for key in ("start", "end", "motion")} for one in status["segments"]]
+        saved = service.http.post(
+            f"/v1/segmentations/{status['id']}/revisions", json={"segments": segments}, headers={"If-Match": '"0"'}
+        )
+        assert saved.status_code == 201
+        assert service.http.get(address).json()["edited"] == status["id"]
+    listed = service.http.get("/v1/animations", params={"limit": 5}).json()["animations"]
+    assert {one["id"]: one["edited"] for one in listed}[done[0]["animation"]] == done[1]["id"]
+    known = service.http.get("/v1/segmentations", params={"animation": done[0]["animation"]}).json()["segmentations"]
+    assert [(one["parameters"]["motions"], one["revision"]) for one in known if one["revision"]] == [(3, 1), (2, 1)]
+    service.http.delete(f"/v1/segmentations/{done[1]['id']}")
+    assert service.http.get(address).json()["edited"] == done[0]["id"]
+
+
 @pytest.mark.parametrize("cursor", ["!", "bmFu", "aW5m"], ids=["no base64", "nan", "inf"])
 def test_a_cursor_that_no_page_gave_is_refused(service, cursor):
     """422, naming the parameter."""

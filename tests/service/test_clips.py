@@ -72,6 +72,19 @@ def test_every_choice_is_a_file_of_its_own(service, address):
     assert names(fetched(service, f"{address}/keyframes").content) == ["key_frames"]
 
 
+@pytest.mark.parametrize("query", ["", "?only=2&names=hero_{motion}", "?files=separate&handles_seconds=0.2&loop=A"])
+def test_the_plan_names_the_clips_of_the_file(service, address, query):
+    """The same names in the same order as the file has; nothing is written for it."""
+    planned = service.http.get(f"{address}/clips/plan{query}").json()["clips"]
+    content = fetched(service, f"{address}/clips{query}").content
+    if "separate" in query:
+        made = [name.removesuffix(".glb") for name in zipfile.ZipFile(io.BytesIO(content)).namelist()]
+    else:
+        made = names(content)
+    assert [clip["name"] for clip in planned] == made
+    assert all(clip["start_seconds"] < clip["end_seconds"] for clip in planned)
+
+
 @pytest.mark.parametrize(
     ("query", "code"),
     [
@@ -79,6 +92,8 @@ def test_every_choice_is_a_file_of_its_own(service, address):
         ("discard=A,B", "no-clips"),
         ("loop=Z", "unknown-motion"),
         ("loops=A", "unknown-parameter"),
+        ("only=99", "invalid-parameter"),
+        ("names={name}", "invalid-parameter"),
     ],
 )
 def test_what_is_not_possible_is_said(service, address, query, code):

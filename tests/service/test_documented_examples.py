@@ -4,6 +4,9 @@ import json
 import re
 import shutil
 import subprocess
+import threading
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 
 import numpy as np
 import pytest
@@ -11,6 +14,7 @@ import pytest
 from caesura.service.app import create_app
 from caesura.service.settings import ServiceSettings
 from tests.conftest import unavailable
+from tests.formats.point_caches import MESH, folding_sheet, pc2
 from tests.glb import Glb, bending_strip
 
 
@@ -77,6 +81,8 @@ def folder(tmp_path_factory):
     (place / "take.gltf").write_text(json.dumps(root))
     (place / "take.bin").write_bytes(binary)
     (place / "mesh.glb").write_bytes(strip().glb())
+    (place / "take.pc2").write_bytes(pc2(folding_sheet()))
+    (place / "take.obj").write_bytes(MESH)
     rows = (f"0 0 0 {40 * np.sin(frame / 5):.3f} 0 0" for frame in range(60))
     (place / "motion.bvh").write_text(BVH + "\n".join(rows) + "\n")
     return place
@@ -90,7 +96,22 @@ def examples(page):
     ]
 
 
-def test_every_example_runs(service, page, folder):
+@pytest.fixture(scope="module")
+def website(folder):
+    """The site that examples fetch files from and have called."""
+
+    class Quiet(SimpleHTTPRequestHandler):
+        def log_message(self, *_):
+            pass
+
+    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=folder))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_address[1]}"
+    server.shutdown()
+    server.server_close()
+
+
+def test_every_example_runs(service, page, folder, website):
     """In the order of the page, by curl, against the running service; none is answered with a refusal."""
     if shutil.which("curl") is None or shutil.which("bash") is None:
         unavailable("curl and bash are needed to run the examples")
@@ -99,17 +120,28 @@ def test_every_example_runs(service, page, folder):
     )
     made = answer.json()
     assert (answer.status_code, made["frames"], made["motions"]) == (200, 240, 3), answer.text
-    ids = {"segmentations": made["id"], "animations": made["animation"], "animation": made["animation"]}
+    length = (folder / "take.glb").stat().st_size
+    begun = service.http.post("/v1/uploads", headers={"Upload-Length": str(length)}).json()
+    ids = {
+        "uploads": begun["id"],
+        "segmentations": made["id"],
+        "animations": made["animation"],
+        "animation": made["animation"],
+        "collections": service.http.post("/v1/collections", json={"name": "examples"}).json()["id"],
+    }
     shown = examples(page)
     assert len(shown) > 20
     for example in shown:
         command = example.replace("localhost:8000", service.url.partition("//")[2])
+        command = command.replace("https://example.com", website)
         command = re.sub(
-            r'(segmentations|animations|animation)(/|": ")ID\b', lambda m: m[1] + m[2] + ids[m[1]], command
+            r'(uploads|segmentations|collections|animations|animation)(/|": "|": \[")ID\b',
+            lambda m: m[1] + m[2] + ids[m[1]],
+            command,
         )
         command = re.sub(r"^curl (--fail )?", "curl --silent --show-error --fail-with-body ", command)
         run = subprocess.run(["bash", "-c", command], cwd=folder, check=False, capture_output=True, timeout=60)
         assert run.returncode == 0, (example, run.stdout[:500], run.stderr)
     assert (folder / "clips.glb").read_bytes().startswith(b"glTF")
-    assert (folder / "animation-clips.glb").is_file(), "curl -O -J does not call the clips by their name"
+    assert (folder / "take-clips.glb").is_file(), "curl -O -J does not call the clips by their name"
     assert (folder / "plot.png").read_bytes().startswith(b"\x89PNG")

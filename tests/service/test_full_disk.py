@@ -7,7 +7,7 @@ import zipfile
 import numpy as np
 import pytest
 
-from benchmarks.chaos_disk import small_disk
+from benchmarks.chaos.disk import small_disk
 from tests.conftest import unavailable
 from tests.glb import bending_strip
 from tests.service.conftest import with_its_own_redis

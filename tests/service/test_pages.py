@@ -7,6 +7,7 @@ import re
 import pytest
 
 from caesura.service.http.security_headers import page_policy
+from tests.conftest import unavailable
 
 
 @pytest.mark.parametrize("path", ["/healthz", "/v1/limits", "/nothing", "/openapi.json"])
@@ -51,8 +52,20 @@ def test_there_is_no_way_out_of_the_static_folder(idle):
         assert idle.http.get(path).status_code == 404
 
 
-@pytest.mark.parametrize("path", ["/docs", "/redoc", "/docs/oauth2-redirect"])
+@pytest.mark.parametrize("path", ["/redoc", "/docs/oauth2-redirect"])
 def test_no_page_loads_scripts_of_another_site(idle, path):
-    """The framework's pages about the API do: they are not there. /openapi.json is."""
+    """The framework's pages about the API do: they are not there. /openapi.json is, and a page of our own."""
     assert idle.http.get(path).json()["code"] == "not-found"
     assert idle.http.get("/openapi.json").status_code == 200
+
+
+def test_the_page_of_the_api_has_all_its_files_here(idle):
+    """Its scripts and styles are ours; nothing of it comes from another site."""
+    answer = idle.http.get("/docs")
+    if answer.status_code == 404 and "not installed" in answer.json()["detail"]:
+        unavailable("the page's libraries are not fetched: make setup")
+    assert answer.status_code == 200
+    assert "unsafe" not in answer.headers["Content-Security-Policy"]
+    assert "://" not in answer.text
+    for path in re.findall(r'(?:src|href)="([^"]+)"', answer.text):
+        assert idle.http.get(path).status_code == 200, path

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from caesura.core.segmentation_document import SegmentationDocument
+from tests.glb import moving_square
 
 
 @pytest.fixture(scope="module")
@@ -84,6 +85,23 @@ def test_elan_reads_it(service, address, document):
     assert tiers["key-frames"] == len(document["key_frames"])
 
 
+def test_every_file_is_saved_under_the_name_of_the_animation_and_its_take(service, take):
+    """`walk.csv`, and of a file with several takes `walk-NAME.csv`; the ids are for programs."""
+    model = moving_square()
+    (one,) = model.json["animations"]
+    ask = {"headers": {"Prefer": "wait=30"}}
+    model.json["animations"] = [{**one, "name": name} for name in ("in/place", "away")]
+    for name, content, stem in (("walk.npz", take(402), "walk"), ("two takes.glb", model.glb(), "two takes-away")):
+        query = {"name": name} | ({"take": "away"} if "two" in name else {})
+        address = service.http.post("/v1/segmentations", params=query, content=content, **ask).headers["Location"]
+        for path, ending in (
+            ("result.json", ".json"), ("result.csv", ".csv"), ("result.csv?table=frames", ".frames.csv"),
+            ("plot.svg", ".svg"), ("result.npz", ".npz"),
+        ):  # fmt: skip
+            saved = service.http.get(f"{address}/{path}", **ask).headers["Content-Disposition"]
+            assert f'filename="{stem}{ending}"' in saved
+
+
 def test_there_is_a_plot_of_it(service, address):
     """As text at once, as pixels made by a worker; no script could run in it."""
     drawn = service.http.get(f"{address}/plot.svg")
@@ -117,7 +135,7 @@ def test_a_form_that_there_is_not_is_refused_with_those_there_are(service, addre
     asked = [
         service.http.get(f"{address}/result", headers={"Accept": "image/png"}),
         service.http.get(f"{address}/result.xml"),
-        service.http.get(f"{address}/result.vtt?table=frames"),
+        service.http.get(f"{address}/result?table=frames", headers={"Accept": "text/vtt"}),
     ]
     assert [answer.status_code for answer in asked] == [406, 404, 400]
     assert all("csv" in answer.json()["detail"] for answer in asked)

@@ -11,6 +11,7 @@ import httpx
 import pytest
 
 from caesura.service.http.stream_limit import MOST_STREAMS
+from tests.glb import moving_square
 from tests.service.conftest import npz
 
 PREFER = {"Prefer": "wait=30"}
@@ -41,14 +42,27 @@ def test_the_same_again_is_the_same_segmentation(service, take, tmp_path):
     again = [
         service.http.post("/v1/segmentations?motions=3&take=longest", content=content),
         service.http.post("/v1/segmentations?motions=3&take=0&bins=10", content=content),
-        service.http.post("/v1/segmentations?motions=3", files={"file": ("x.npz", content)}),
-        service.http.post("/v1/segmentations", files={"file": ("x.npz", content)}, data={"motions": "3"}),
+        service.http.post("/v1/segmentations?motions=3", files={"file": ("animation.npz", content)}),
+        service.http.post("/v1/segmentations", files={"file": ("animation.npz", content)}, data={"motions": "3"}),
         service.http.post("/v1/segmentations", json={"animation": document["animation"], "motions": 3}),
         service.http.post("/v1/segmentations", params={"animation": document["animation"], "motions": "3"}),
     ]
     assert [answer.status_code for answer in again] == [200] * 6
     assert {answer.json()["id"] for answer in again} == {document["id"]}
     assert service.http.get(f"/v1/segmentations/{document['id']}/events").text == record, "it was computed again"
+
+
+def test_all_takes_of_a_file_are_one_segmentation(service):
+    """One after the other; of a file with one take it is that take."""
+    model = moving_square()
+    (one,) = model.json["animations"]
+    single = model.glb()
+    model.json["animations"] = [{**one, "name": name} for name in ("a", "b", "c")]
+    frames = []
+    for content in (single, model.glb()):
+        status = service.http.post("/v1/segmentations?take=all", content=content, headers=PREFER).json()
+        frames.append((status["frames"], status["parameters"]["take"]))
+    assert frames == [(31, 0), (93, "all")]
 
 
 def test_other_parameters_are_another_segmentation_of_the_same_animation(service, take):

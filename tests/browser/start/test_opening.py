@@ -4,11 +4,13 @@ import io
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
 from caesura.core.limits import Limits
-from caesura.formats.file_header import read_header
+from caesura.formats.upload_summary import read_header
+from tests.browser.drawn import ellipsoid
 from tests.browser.journeys import opened
 
 pytestmark = pytest.mark.timeout(240)
@@ -31,12 +33,66 @@ def test_a_method_that_must_be_told_the_number_gets_the_one_on_screen(page: Page
     """Whoever only chooses a method is not asked for what the page knows; back again it may be found anew."""
     opened(page, smooth)
     motions = page.locator("#motions").get_attribute("placeholder")
-    page.locator("#method").select_option("spectral")
+    with page.expect_request("**/v1/segmentations") as asked:
+        page.locator("#advanced-open").click()
+        page.locator("#method").select_option("spectral")
+    assert asked.value.post_data_json["motions"] == int(motions or "")
     expect(page.locator("#controls-note")).to_contain_text("now has", timeout=60_000)
-    expect(page.locator("#motions")).to_have_value(motions or "")
     expect(page.locator("#auto")).to_be_disabled()
     page.locator("#method").select_option("switching")
     expect(page.locator("#auto")).to_be_enabled()
+
+
+def test_a_number_that_the_take_does_not_have_is_not_shown_as_if_it_had(page: Page, smooth: Path) -> None:
+    """Of 40 motions that were asked for ten are found: the field, the list and a sentence say ten."""
+    opened(page, smooth)
+    page.locator("#motions").fill("40")
+    page.locator("#motions").press("Enter")
+    expect(page.locator("#warnings")).to_contain_text("40 motions were asked for, but only", timeout=60_000)
+    expect(page.locator("#motions")).not_to_have_value("40")
+    expect(page.locator("#summary")).to_contain_text(f"{page.locator('#motions').input_value()} motions")
+
+
+def test_a_take_without_a_curve_says_why_in_its_place(page: Page, tmp_path: Path) -> None:
+    """No empty chart, no invented axis; the timeline stands under the sentence and plays."""
+    file = tmp_path / "short.npz"
+    with np.load(io.BytesIO(ellipsoid())) as whole:
+        np.savez(file, **{**whole, "vertices": whole["vertices"][:30]})
+    page.goto("/")
+    page.locator("#drop input").set_input_files(file)
+    expect(page.locator("#no-curve")).to_contain_text("energy curve needs", timeout=60_000)
+    box = page.locator("#curve").bounding_box()
+    assert box is not None
+    assert box["height"] < 2
+    expect(page.locator(".axis")).to_be_hidden()
+    page.locator("#timeline").click(position={"x": 300, "y": 10})
+    expect(page.locator("#frame")).not_to_have_value("0")
+    expect(page.locator("#segments .long")).to_have_text("0.97 s")  # from the first pose to the last, as the clip lasts
+
+
+def test_a_bad_file_leaves_the_result_where_it_is(page: Page, smooth: Path, tmp_path: Path) -> None:
+    """It is refused over the result, which is still there, and plays."""
+    address = opened(page, smooth).split("#")[0]
+    file = tmp_path / "page.glb"
+    file.write_text("<!doctype html><title>Not found</title>")
+    page.locator("#another input").set_input_files(file)
+    expect(page.locator("#refusal-detail")).to_contain_text(".")
+    page.locator("#refusal").get_by_role("button", name="Close").click()
+    expect(page.locator("#segments li").first).to_be_visible()
+    assert page.url.split("#")[0] == address
+    page.locator("#play").click()
+    expect(page.locator("#frame")).not_to_have_value("0")
+
+
+def test_the_same_bytes_under_another_name_are_called_so(page: Page, own: Path, tmp_path: Path) -> None:
+    """A person who renames a file sees the new name, in the header and in the list."""
+    opened(page, own)
+    other = tmp_path / "renamed.glb"
+    other.write_bytes(own.read_bytes())
+    opened(page, other)
+    expect(page.locator("#subject")).to_contain_text("renamed.glb")
+    page.goto("/")
+    expect(page.locator("#recent .animation strong", has_text="renamed.glb")).to_have_count(1)
 
 
 def test_a_result_opens_by_its_address_at_a_moment(page: Page, smooth: Path) -> None:

@@ -75,8 +75,9 @@ def test_a_folder_that_cannot_be_written_is_said(takes):
     """Where the results cannot go, the file failed, by a sentence and without a traceback."""
     (takes / "taken").write_text("a file")
     run = caesura(takes, "segment", "monday/walk.npz", "--out", "taken/below")
-    assert run.returncode == 3
-    assert "[file-system]" in run.stderr
+    assert run.returncode == 5
+    assert "taken/below could not be written" in run.stderr
+    assert "[not-written]" in run.stderr
     assert "Traceback" not in run.stderr
 
 
@@ -94,6 +95,9 @@ def test_a_folder_that_cannot_be_written_is_said(takes):
         (["monday/walk.npz", "--csv", "one", "--vtt", "./one"], "'one' is named twice"),
         (["monday/walk.npz", "--discard", "A", "--csv", "one.csv"], "--discard says how clips are made"),
         (["monday/walk.npz", "--csv", "monday/walk.npz"], "'monday/walk.npz' is one of the files to read"),
+        (["-", "monday/walk.npz"], "- is standard input, which is one animation"),
+        (["monday/walk.npz", "--csv", "-", "--vtt", "-"], "Only one output can go to standard output"),
+        (["monday/walk.npz", "--csv", "-", "--json"], "would both go to standard output"),
         (["monday/walk.npz", "one.bin", "--clips", "one.bin"], "'one.bin' is one of the files to read"),
         (["--clips", "monday/walk.npz", "tuesday/walk.npz"], "'monday/walk.npz' is an animation, and --clips would"),
     ],
@@ -123,7 +127,7 @@ def test_a_form_that_a_result_has_not_does_not_cost_the_others(takes):
     assert sorted(path.name for path in (takes / "some").iterdir()) == ["walk.csv", "walk.json", "walk.svg"]
 
 
-def test_clips_replace_clips_and_their_source_but_no_other_model(takes):
+def test_clips_replace_clips_but_no_other_model(takes):
     """An option that swallowed the first of two files would have written the second's clips over it."""
     for name in ("one.glb", "two.glb"):
         (takes / name).write_bytes(build_figure("rigid").glb)
@@ -132,9 +136,57 @@ def test_clips_replace_clips_and_their_source_but_no_other_model(takes):
     assert swallowed.returncode == 2
     assert "'one.glb' is an animation" in swallowed.stderr
     assert (takes / "one.glb").read_bytes() == source
-    for name in ("clips.glb", "clips.glb", takes / "two.glb"):
+    for name in ("clips.glb", "clips.glb"):
         run = caesura(takes, "segment", "two.glb", "--clips", name, "--motions", "2")
         assert run.returncode == 0, run.stderr
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["own.json", "--clips", "own.json"],
+        ["own.json", "--csv", "./own.json"],
+        ["own.json", "--clips", "link.glb"],
+        ["own.json", "--clips", "hard.glb"],
+        ["own.json", "--out", "."],
+        ["own.json", "walk.npz", "--out", ".", "--csv"],
+    ],
+    ids=["the name", "another spelling", "a link", "a hard link", "a folder", "several into a folder"],
+)
+def test_an_input_is_never_written_over(tmp_path, arguments):
+    """In no form and by no name, unless --force says so: then it is whole, and new."""
+    (tmp_path / "own.json").write_bytes(build_figure("rigid").glb)
+    (tmp_path / "walk.npz").write_bytes(take_npz())
+    (tmp_path / "link.glb").symlink_to("own.json")
+    (tmp_path / "hard.glb").hardlink_to(tmp_path / "own.json")
+    before = (tmp_path / "own.json").read_bytes()
+    run = caesura(tmp_path, "segment", *arguments, "--motions", "2")
+    assert run.returncode == 2
+    assert "one of the files to read" in run.stderr
+    assert (tmp_path / "own.json").read_bytes() == before
+
+
+def test_force_writes_over_an_input(tmp_path):
+    """The clips are made of the file that they replace."""
+    (tmp_path / "two.glb").write_bytes(build_figure("rigid").glb)
+    run = caesura(tmp_path, "segment", "two.glb", "--clips", "two.glb", "--motions", "2", "--force")
+    assert run.returncode == 0, run.stderr
+    assert b"A_01" in (tmp_path / "two.glb").read_bytes()
+
+
+def test_several_files_at_once_are_cut_as_one_by_one(takes, run):
+    """In the same order, with the same documents and tables, the same sentence and the same status."""
+    forms = ["--csv", "--clips", "--vtt", "--eaf", "--plot", "--plot-png"]
+    once = caesura(
+        takes, "segment", "**/walk.npz", "monday/z→.npz", "--motions", "2", "--out", "jobs", "--jobs", "2", *forms
+    )
+    assert once.returncode == 3, once.stderr
+    assert [line.split()[0] for line in once.stdout.splitlines()[1:4]] == [
+        "monday/walk.npz", "tuesday/walk.npz", "monday/z\\u2192.npz",
+    ]  # fmt: skip
+    assert once.stdout.splitlines()[-1] == "2 of 3 done"
+    for path in (takes / "out").rglob("*.*"):
+        assert (takes / "jobs" / path.relative_to(takes / "out")).read_bytes() == path.read_bytes()
 
 
 def test_pipes_and_links_stay_what_they_are(takes):
@@ -170,6 +222,6 @@ def test_a_full_folder_for_temporary_files_is_said(takes):
         [*alone, "sh", "-c", small, "sh", program, "segment", "deflated.npz", "--motions", "2"],
         cwd=takes, check=False, capture_output=True, text=True, timeout=240,
     )  # fmt: skip
-    assert run.returncode == 3, run.stderr
+    assert run.returncode == 5, run.stderr
     assert f"{takes / 'full'} has no room for" in run.stderr
-    assert "[file-system]" in run.stderr
+    assert "[disk-full]" in run.stderr

@@ -9,7 +9,8 @@ from fastapi import FastAPI
 
 from caesura.core import errors as core_errors
 from caesura.service.problems import exception_handlers
-from caesura.service.problems.status_table import STATUS_OF_CODE, Refusal, status_of
+from caesura.service.problems.problem_response import RequestProblem
+from caesura.service.problems.status_table import STATUS_OF_CODE, status_of
 from caesura.worker.store.blobs import BlobMissing
 
 
@@ -45,14 +46,14 @@ def test_a_code_wins_over_its_kind():
 
 def test_no_problem_is_kept_by_a_cache():
     """What is not there today may be there tomorrow, and what one may not see another may."""
-    for failure in (Refusal("not-found", "There is none."), redis.ConnectionError("away")):
+    for failure in (RequestProblem("not-found", "There is none."), redis.ConnectionError("away")):
         assert answered(failure).headers["Cache-Control"] == "no-store"
 
 
 def test_what_is_in_no_table_is_ours():
     """500, so that nobody is blamed for what we do not know."""
     assert status_of({"kind": "unheard-of", "code": "unheard-of"}) == 500
-    client = {400, 401, 403, 404, 405, 406, 409, 410, 412, 413, 415, 416, 422, 428, 429}
+    client = {400, 401, 403, 404, 405, 406, 409, 410, 412, 413, 415, 416, 422, 423, 428, 429}
     assert set(STATUS_OF_CODE.values()) <= client | {500, 503, 507}
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from caesura.service.problems.status_table import Refusal
+from caesura.service.problems.problem_response import RequestProblem
 from caesura.service.results.byte_ranges import content_disposition, parse_range
 
 
@@ -31,7 +31,7 @@ def test_a_range_is_read(header, wanted):
 @pytest.mark.parametrize("header", ["bytes=100-", "bytes=5-4", "bytes=-0"])
 def test_a_range_that_holds_nothing_is_refused(header):
     """It would be an empty answer that looks like success."""
-    with pytest.raises(Refusal, match="range-not-satisfiable"):
+    with pytest.raises(RequestProblem, match="range-not-satisfiable"):
         parse_range(header, 100)
 
 

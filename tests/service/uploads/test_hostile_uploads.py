@@ -11,7 +11,7 @@ import pytest
 
 from caesura.core.limits import Limits
 from tests.formats.gltf.test_draco import HOSTILE as DRACO
-from tests.formats.test_hostile_gltf import (
+from tests.formats.gltf.test_hostile_gltf import (
     ACCESSORS,
     ANIMATIONS,
     CONTAINERS,

@@ -5,6 +5,7 @@ import zipfile
 
 import httpx
 
+from tests.formats.point_caches import MESH, folding_sheet, pc2
 from tests.glb import Glb, bending_strip, moving_square
 
 
@@ -33,6 +34,18 @@ def test_a_mesh_and_its_motion_are_one_animation(service):
     assert [take["duration_seconds"] for take in answer.json()["takes"]] == [1.0]
     refused = posted(service, one=moving_square().glb(), two=moving_square().glb())
     assert (refused.status_code, refused.json()["code"]) == (400, "one-animation")
+
+
+def test_a_point_cache_and_its_mesh_are_one_animation(service):
+    """Segmented as one; a cache alone is refused at once, with what it needs."""
+    cache, mesh_of_it = pc2(folding_sheet(60)), MESH
+    files = [("file", ("a.pc2", cache)), ("file", ("a.obj", mesh_of_it))]
+    answer = httpx.post(f"{service.url}/v1/segmentations", files=files, headers={"Prefer": "wait=30"}, timeout=60)
+    assert (answer.status_code, answer.json()["status"]) == (200, "done"), answer.text
+    assert answer.json()["frames"] == 60
+    refused = httpx.post(f"{service.url}/v1/animations", content=cache)
+    assert (refused.status_code, refused.json()["code"]) == (422, "missing-companion")
+    assert ".obj" in refused.json()["detail"]
 
 
 def test_a_zip_is_an_animation(service):
