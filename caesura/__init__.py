@@ -15,23 +15,33 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from caesura.api import open_animation, segment
+    from caesura.client.async_client import AsyncClient
+    from caesura.client.client import Client
     from caesura.core.animation import Animation
+    from caesura.core.errors import CaesuraError
     from caesura.core.parameters import Parameters
     from caesura.core.segmentation import Segmentation
     from caesura.estimators import MotionFeatures, MotionSegmenter
+    from caesura.joint_segmentation import JointSegmentation, segment_together
 
 _HOMES = {
     "Animation": "caesura.core.animation",
+    "AsyncClient": "caesura.client.async_client",
+    "CaesuraError": "caesura.core.errors",
+    "Client": "caesura.client.client",
+    "JointSegmentation": "caesura.joint_segmentation",
     "MotionFeatures": "caesura.estimators",
     "MotionSegmenter": "caesura.estimators",
     "Parameters": "caesura.core.parameters",
     "Segmentation": "caesura.core.segmentation",
     "open_animation": "caesura.api",
     "segment": "caesura.api",
+    "segment_together": "caesura.joint_segmentation",
 }
 
 __all__ = [  # noqa: RUF022  in the order in which they are met
-    "segment", "open_animation", "Animation", "Parameters", "Segmentation", "MotionSegmenter", "MotionFeatures",
+    "segment", "open_animation", "Animation", "Parameters", "Segmentation", "segment_together", "JointSegmentation",
+    "MotionSegmenter", "MotionFeatures", "Client", "AsyncClient", "CaesuraError",
 ]  # fmt: skip
 
 

@@ -1,7 +1,6 @@
-"""The functions for programs: segment or open an animation, arrays, or the bytes of a file."""
+"""The functions for programs: segment or open an animation, arrays, or a file."""
 
 from collections.abc import Mapping
-from mmap import mmap
 from typing import Any
 
 import numpy as np
@@ -9,23 +8,24 @@ from numpy.typing import ArrayLike
 
 from caesura.core.animation import Animation
 from caesura.core.errors import InvalidModel, ParameterError
-from caesura.core.feature_sequence import segment_features
+from caesura.core.feature_sequence import segment_feature_sequence
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import segment as segment_animation
 from caesura.core.progress import Progress, ignore_progress
 from caesura.core.segmentation import Segmentation
+from caesura.file_sources import FileSources, is_file_source, open_parts
 from caesura.formats.notices import Notices
 from caesura.formats.npz.read import check_triangles, vertex_sequence_from_arrays
 from caesura.formats.read import read_animation
+from caesura.mapped_files import scratch_buffer
 
-Bytes = bytes | bytearray | memoryview | mmap
 READING_PARAMETERS = ("take", "fps", "start", "end", "trim")
 """Parameters that say which frames of a file are read."""
 
 
 def segment(
-    source: Animation | Bytes | Mapping[str, Bytes] | ArrayLike,
+    source: Animation | FileSources | ArrayLike,
     triangles: ArrayLike | None = None,
     *,
     frame_rate: float = 30.0,
@@ -37,33 +37,36 @@ def segment(
     """The motions of a take: which there are, where each begins and ends, and how sure each cut is.
 
         segment(vertices, triangles, frame_rate=30, motions=5)
-        segment(Path("take.glb").read_bytes(), method="joint-entropy", motions=5)
+        segment("take.glb", method="joint-entropy", motions=5)
 
     `source` is one of:
+
     - vertices (frames, V, 3), real numbers in any one unit of length, with `triangles` (T, 3) of their indices;
       without triangles the vertices are joints of a skeleton. `rest_shape` (V, 3) is the undeformed shape; without it,
       frame 0. `frame_rate` in frames per second, above 0;
     - features (frames, D), whatever was measured of each frame (angles, coordinates, an embedding), not rescaled;
-    - the bytes of a file (GLB, glTF, BVH, NPZ, zip), or several by name, such as a .gltf and its .bin;
+    - a file of any kind that is read: its path (`str` or `Path`), an open file (binary, read from where it stands), or
+      its bytes; or several that belong together, such as a .gltf and its .bin: a list of paths, or a mapping by name;
     - an `Animation`, that `open_animation` or a program of yours has made.
 
     `parameters` are those of `core.Parameters`, of the API and of the command, by the same names: `motions` (a number
     or "auto"), `method`, `fps`, `window_seconds`, … Frames of the result are numbered from 0, intervals half-open.
     The same result for any number of `threads`.
 
-    Raises `CaesuraError`: `ParameterError` for a choice that is not possible, `InputError` for what cannot be cut.
+    Raises `CaesuraError`: `ParameterError` for a choice that is not possible, `InputError` for what cannot be cut;
+    and OSError for a path that leads nowhere.
     """
     chosen = Parameters.parse(parameters)
-    if not isinstance(source, Animation | bytes | bytearray | memoryview | mmap | Mapping):
+    if not (isinstance(source, Animation) or is_file_source(source)):
         source = np.asarray(source)
         if source.ndim == 2:
-            return segment_features(source, chosen, frame_rate=frame_rate)
+            return segment_feature_sequence(source, chosen, frame_rate=float(frame_rate))
     animation = open_animation(source, triangles, frame_rate=frame_rate, rest_shape=rest_shape, **parameters)
     return segment_animation(animation, chosen, threads=threads, progress=progress)
 
 
 def open_animation(
-    source: Animation | Bytes | Mapping[str, Bytes] | ArrayLike,
+    source: Animation | FileSources | ArrayLike,
     triangles: ArrayLike | None = None,
     *,
     frame_rate: float = 30.0,
@@ -73,17 +76,14 @@ def open_animation(
     """The animation that `segment` would cut: its frames, rate, triangles, and `vertices(start, stop)` to draw them.
 
     Arguments and errors are those of `segment`; of the parameters `take`, `fps`, `start`, `end` and `trim` matter
-    here. Buffers must outlive the animation, which draws from them.
+    here. The animation draws from the file or the buffers that it was given: they must not change while it is used.
     """
     chosen = Parameters.parse(parameters)
     if isinstance(source, Animation):
         _refuse_reading_parameters(parameters)
         return source
-    if isinstance(source, bytes | bytearray | memoryview | mmap):
-        source = {"": source}
-    if isinstance(source, Mapping):
-        parts = {name: memoryview(part) for name, part in source.items()}
-        return read_animation(parts, chosen, Limits.none(), lambda size: memoryview(bytearray(size)))
+    if is_file_source(source):
+        return read_animation(open_parts(source), chosen, Limits.none(), scratch_buffer)
     return _of_arrays(np.asarray(source), triangles, rest_shape, frame_rate, chosen)
 
 

@@ -28,5 +28,5 @@ def scratch_buffer(size: int) -> memoryview:
         except OSError as full:
             folder = tempfile.gettempdir()
             detail = f"{folder} has no room for {size} temporary bytes ({full.strerror}); TMPDIR names another folder"
-            raise OSError(detail) from full
+            raise OSError(full.errno, detail) from full
         return memoryview(mmap.mmap(file.fileno(), max(size, 1)))[:size]

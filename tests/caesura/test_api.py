@@ -1,7 +1,10 @@
 """`from caesura import segment`: what a Python program has at hand goes in as it is."""
 
+import gzip
+import io
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +16,7 @@ from caesura.core.errors import InvalidModel, ParameterError
 from caesura.core.parameters import Parameters
 from caesura.samples.sample_figures import build_figure
 from tests.animations import performing_bar
+from tests.formats.point_caches import MESH, folding_sheet, pc2
 from tests.installation import take_npz
 
 
@@ -62,13 +66,86 @@ def test_arrays_files_and_animations_give_the_same(bar, vertices):
     assert np.array_equal(segment(animation, motions=2, threads=2).labels, found.labels)
 
 
-@pytest.mark.parametrize("of", [bytes, bytearray, memoryview, lambda data: {"take.npz": data}])
-def test_a_file_is_its_bytes(of):
-    """A file's bytes, in any buffer or by name; core opens none itself."""
-    content = take_npz()
-    found = segment(of(content), motions=2, fps=15)
+@pytest.fixture(scope="module")
+def path(tmp_path_factory):
+    """A take as a file."""
+    place = tmp_path_factory.mktemp("takes") / "take.npz"
+    place.write_bytes(take_npz())
+    return place
+
+
+@pytest.mark.parametrize(
+    "of",
+    [
+        Path.read_bytes,
+        lambda path: bytearray(path.read_bytes()),
+        lambda path: memoryview(path.read_bytes()),
+        lambda path: {"take.npz": path.read_bytes()},
+        lambda path: {"take.npz": path},
+        str,
+        Path,
+        lambda path: [path],
+        lambda path: path.open("rb"),
+        lambda path: io.BytesIO(path.read_bytes()),
+        lambda path: gzip.GzipFile(fileobj=io.BytesIO(gzip.compress(path.read_bytes()))),
+        lambda path: after(path, b"read before"),
+    ],
+    ids=[
+        "bytes",
+        "bytearray",
+        "memoryview",
+        "bytes by name",
+        "path by name",
+        "str",
+        "Path",
+        "list",
+        "file",
+        "buffer",
+        "gzip",
+        "half read",
+    ],
+)
+def test_a_file_is_its_path_its_bytes_or_itself(path, of):
+    """The same result, whatever the program has at hand; an open file is read from where it stands."""
+    source = of(path)
+    found = segment(source, motions=2, fps=15)
     assert found.frame_rate == 15
-    assert len(found.labels) == 90
+    assert found == segment(path.read_bytes(), motions=2, fps=15)
+    if hasattr(source, "close"):
+        assert not source.closed
+        source.close()
+
+
+def after(path, read):
+    """A plain file that holds something else first, which was read already."""
+    place = path.with_name("after")
+    place.write_bytes(read + path.read_bytes())
+    file = place.open("rb")
+    file.seek(len(read))
+    return file
+
+
+def test_a_file_that_is_none_is_said(path, tmp_path):
+    """A path that leads nowhere is an OSError; a file opened as text is refused with what to do."""
+    with pytest.raises(FileNotFoundError):
+        segment(tmp_path / "nowhere.glb")
+    for text in (io.StringIO("text"), io.TextIOWrapper(io.BytesIO(b"text"))):
+        with pytest.raises(errors.UnsupportedMedia, match='mode "rb"'):
+            segment(text)
+    (tmp_path / "empty.glb").write_bytes(b"")
+    with (tmp_path / "empty.glb").open("rb") as empty, pytest.raises(errors.UnsupportedMedia):
+        segment(empty)
+
+
+def test_files_that_belong_together_are_a_list(tmp_path):
+    """A point cache and the mesh that it moves, by their paths; a file keeps its name in a refusal."""
+    (tmp_path / "take.pc2").write_bytes(pc2(folding_sheet()))
+    (tmp_path / "take.obj").write_bytes(MESH)
+    found = open_animation([tmp_path / "take.pc2", str(tmp_path / "take.obj")])
+    assert found.frames == len(folding_sheet())
+    with pytest.raises(errors.InputError) as refused:
+        open_animation(tmp_path / "take.pc2")
+    assert refused.value.where.get("file", "take.pc2") == "take.pc2"
 
 
 def test_a_figure_is_cut_from_its_file():
