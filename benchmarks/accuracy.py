@@ -5,7 +5,7 @@
 Cuts every sequence by every method, told the number of motions K and, where the method can choose it, told nothing.
 Methods with random starts run once for each seed. A folder holds models with their labels beside them, FILE.glb and
 FILE.truth.json, FILE.json (a result document, corrected or not), FILE.csv or FILE.eaf. Writes the table into
-docs/accuracy.md and the segments as bars into docs/accuracy.svg, or with `--print` neither.
+docs/accuracy.md and the segments as bars into docs/pictures/accuracy.svg, or with `--print` neither.
 """
 
 import argparse
@@ -14,40 +14,47 @@ from collections.abc import Iterator
 from pathlib import Path
 from time import perf_counter
 
-from benchmarks.drawing import bars
-from benchmarks.peers import PEERS, NotInstalled, Peers, peers
-from benchmarks.report import ACCURACY, write_section
-from benchmarks.scores import Row, Scores
-from benchmarks.sequences import Known, sequences
-from benchmarks.table import HEAD, line, means, promises
+from benchmarks.peers.peer_methods import PEERS, NotInstalled, Peers, peers
+from benchmarks.reports.drawing import bars
+from benchmarks.reports.report import ACCURACY, write_section
+from benchmarks.reports.scores import Row, Scores
+from benchmarks.reports.table import HEAD, line, means, promises
+from benchmarks.takes.sequences import Known, sequences
+from caesura.core.analysis import Analysis
 from caesura.core.errors import ParameterError
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import cut
 from caesura.core.registry.methods import METHODS
 
-RANDOM = frozenset({"joint-entropy", "spectral", "aca", "haca"})
+RANDOM = frozenset(METHODS) - {"switching", "luo2014", "hmm"}
 PAPER = "The paper's own figure 7, mean of 14 trials, K told: joint-entropy 0.903, SC 0.861, ACA 0.942, HACA 0.950."
 FEATURES = {"joint-entropy": "strain", "clasp": "leading", "fluss": "leading"}
 """Of the others: both descriptors, strain and pair distances."""
 
 
 def rows(known: Known, methods: list[str], seeds: int) -> Iterator[Row]:
-    """Each method on one take; a method that refuses the take has no row."""
+    """Each method on one take, the paper's also from the first frame; one that refuses the take has no row."""
     for method in methods:
-        for told in ("K",) if METHODS[method].needs_motions else ("K", "auto"):
-            asked = known.motions if told == "K" else "auto"
-            found = []
-            for seed in range(seeds if method in RANDOM else 1):
-                start = perf_counter()
-                try:
-                    labels = cut(known.analysis, Parameters(method=method, motions=asked, seed=seed)).labels
-                except ParameterError as refused:
-                    print(f"{known.name}, {method}: {refused}")
-                    break
-                found.append((labels, perf_counter() - start))
-            if found:
-                scores = tuple(Scores.of(labels, known, seconds) for labels, seconds in found)
-                yield Row(known, method, told, FEATURES.get(method, "both"), scores, found[0][0])
+        yield from _rows(known, known.analysis, method, FEATURES.get(method, "both"), seeds)
+        if method == "joint-entropy" and (other := known.from_first_frame()) is not None:
+            yield from _rows(known, other, method, "strain,rest=0", seeds)
+
+
+def _rows(known: Known, analysis: Analysis, method: str, features: str, seeds: int) -> Iterator[Row]:
+    for told in ("K",) if METHODS[method].needs_motions else ("K", "auto"):
+        asked = known.motions if told == "K" else "auto"
+        found = []
+        for seed in range(seeds if method in RANDOM else 1):
+            start = perf_counter()
+            try:
+                labels = cut(analysis, Parameters(method=method, motions=asked, seed=seed)).labels
+            except ParameterError as refused:
+                print(f"{known.name}, {method}: {refused}")
+                break
+            found.append((labels, perf_counter() - start))
+        if found:
+            scores = tuple(Scores.of(labels, known, seconds) for labels, seconds in found)
+            yield Row(known, method, told, features, scores, found[0][0])
 
 
 def peer_rows(known: Known, names: list[str], others: Peers) -> Iterator[Row]:
@@ -56,7 +63,7 @@ def peer_rows(known: Known, names: list[str], others: Peers) -> Iterator[Row]:
         try:
             labels, seconds = others.labels(name, known)
         except NotInstalled as missing:
-            print(f"{name}: {missing}. See benchmarks/peers.txt")
+            print(f"{name}: {missing}. See benchmarks/peers/requirements.txt")
             names.remove(name)
         else:
             scores = (Scores.of(labels, known, seconds),)
@@ -112,7 +119,7 @@ def main() -> None:
         command = f"python -m benchmarks.accuracy {folders}{choices} --seeds {given.seeds}{some}"
         write_section(ACCURACY, "accuracy", section(found, missing, command))
         told = [(row.known.name, row.method, row.known.truth, row.labels) for row in found if row.told != "auto"]
-        ACCURACY.with_suffix(".svg").write_text(bars(told))
+        (ACCURACY.parent / "pictures" / "accuracy.svg").write_text(bars(told))
 
 
 if __name__ == "__main__":

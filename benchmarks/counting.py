@@ -14,9 +14,9 @@ from time import perf_counter
 
 import numpy as np
 
-from benchmarks.joining import joined
-from benchmarks.report import ACCURACY, write_section
-from benchmarks.sequences import Known, kept_back
+from benchmarks.reports.report import ACCURACY, write_section
+from benchmarks.takes.joining import joined
+from benchmarks.takes.sequences import Known, kept_back
 from caesura.core.agreement import frame_accuracy
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import cut

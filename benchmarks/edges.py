@@ -11,7 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 from jaxtyping import Float, Int
 
-from benchmarks.report import ACCURACY, write_section
+from benchmarks.reports.report import ACCURACY, write_section
 from caesura.core.animation import Animation, Take
 from caesura.core.errors import CaesuraError
 from caesura.core.parameters import Parameters

@@ -14,8 +14,8 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from benchmarks.stopwatch import AnonymousPeak, anonymous
-from benchmarks.tube import FRAME_RATE, Tube
+from benchmarks.takes.tube import FRAME_RATE, Tube
+from benchmarks.timing.stopwatch import AnonymousPeak, anonymous
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse
 

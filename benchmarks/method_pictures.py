@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float, Int, UInt8
 from sklearn.cluster import KMeans
 
-from benchmarks.numpy_twin import twin
+from benchmarks.timing.numpy_twin import twin
 from caesura.api import open_animation
 from caesura.core.analysis import Analysis
 from caesura.core.methods.pose_features import pose_features
@@ -193,4 +193,4 @@ def _png(grey: UInt8[np.ndarray, "rows columns"]) -> bytes:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else Path("docs"))
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else Path("docs/pictures"))

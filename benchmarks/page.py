@@ -16,16 +16,16 @@ from statistics import median
 import numpy as np
 from playwright.sync_api import Browser, Page, sync_playwright
 
-from benchmarks.page_work import frame_costs, stage_of, step_costs
-from benchmarks.processes import service
-from benchmarks.report import write_section
+from benchmarks.reports.report import write_section
 from benchmarks.session import DOCS, SOFTWARE_WEBGL
+from benchmarks.timing.page_work import frame_costs, stage_of, step_costs
+from benchmarks.timing.processes import service
 from caesura.api import open_animation
+from caesura.client.client import Client
 from caesura.samples.figure_glb import smooth_glb
 from caesura.samples.long_session import long_session, plan_session
 from caesura.samples.performed_take import perform_take
 from caesura.samples.smooth_body import build_body
-from caesura.service.commands.client import Client
 
 FRAMES = 1000
 CELL = 0.01352  # metres: about 30,000 triangles
@@ -67,7 +67,7 @@ def _measured(frames: int) -> list[Row]:
         browser = playwright.chromium.launch(executable_path=chromium, args=SOFTWARE_WEBGL)
 
         def posted(data: bytes, name: str) -> str:
-            return f"{running.url}/view/{client.segment(io.BytesIO(data), name, {}).id}"
+            return f"{running.url}/view/{client.segment(data, name=name).id}"
 
         rows = _drawing(browser, posted(glb, "skinned.glb"), "skinned")
         rows += _drawing(browser, posted(as_vertices(glb), "vertices.npz"), "as vertices")

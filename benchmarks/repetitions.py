@@ -14,8 +14,8 @@ from itertools import islice, pairwise
 import numpy as np
 from jaxtyping import Int
 
-from benchmarks.report import ACCURACY, write_section
-from benchmarks.sequences import Known, kept_back
+from benchmarks.reports.report import ACCURACY, write_section
+from benchmarks.takes.sequences import Known, kept_back
 from caesura.core.agreement import cut_frames
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import cut

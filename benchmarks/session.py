@@ -13,13 +13,13 @@ from pathlib import Path
 
 from playwright.sync_api import Page, sync_playwright
 
-from benchmarks.processes import Watch, service
-from benchmarks.report import write_section
+from benchmarks.reports.report import write_section
+from benchmarks.timing.processes import Watch, service
+from caesura.client.client import Client
 from caesura.core.limits import Limits
-from caesura.formats.file_header import read_header
+from caesura.formats.upload_summary import read_header
 from caesura.samples.long_session import long_session
-from caesura.service.commands.client import Client
-from caesura.service.commands.labelling import Labelling, compute_agreement
+from caesura.service.commands.frame_labels import Labelling, compute_agreement
 
 DOCS = Path(__file__).resolve().parent.parent / "docs" / "performance.md"
 SCRUBS = 60
@@ -45,10 +45,10 @@ def _measured(frames: int) -> list[str]:
     with service() as (url, pid, _), Client(url) as client:
         watch = Watch(pid)
         since = time.perf_counter()
-        found = client.segment(io.BytesIO(sample.glb), "session.glb", {})
+        found = client.segment(sample.glb, name="session.glb")
         seconds = time.perf_counter() - since
         since = time.perf_counter()
-        client.segment(io.BytesIO(sample.glb), "session.glb", {"motions": str(found.motions)})
+        client.segment(sample.glb, name="session.glb", motions=found.motions)
         again = time.perf_counter() - since
         peaks = watch.stop()
         shown = _page(f"{url}/view/{found.id}", frames)

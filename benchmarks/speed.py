@@ -1,8 +1,8 @@
 """How fast the energy curve and the whole method are, beside `np.copyto` of the same vertices and plain NumPy.
 
-    python -m benchmarks.speed            # minutes; writes docs/performance.md and docs/performance.svg
+    python -m benchmarks.speed            # minutes; writes docs/performance.md and docs/pictures/performance.svg
     python -m benchmarks.speed --quick    # under 40 s; prints alone
-    python -m benchmarks.speed --peers PYTHON    # beside KernelCPD, which that Python has (see peers.txt)
+    python -m benchmarks.speed --peers PYTHON    # beside KernelCPD, which that Python has (`benchmarks.peers`)
     python -m benchmarks.speed --huge     # and the command on an NPZ of 8 GB in a temporary folder
 
 Every figure is a ratio of things measured in the same run, on two threads, best of several alternating turns, in
@@ -19,15 +19,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from benchmarks.curve import Curve
-from benchmarks.growth import Series, drawn
 from benchmarks.memory import beyond_input, of_the_command
-from benchmarks.numpy_twin import twin
-from benchmarks.peers import NotInstalled, peers
-from benchmarks.report import write_section
-from benchmarks.skinned import Skinned
-from benchmarks.stopwatch import Cost, least
-from benchmarks.tube import Tube
+from benchmarks.peers.peer_methods import NotInstalled, peers
+from benchmarks.reports.growth import Series, drawn
+from benchmarks.reports.report import write_section
+from benchmarks.takes.skinned import Skinned
+from benchmarks.takes.tube import Tube
+from benchmarks.timing.curve import Curve
+from benchmarks.timing.numpy_twin import twin
+from benchmarks.timing.stopwatch import Cost, least
 from caesura.core.energy.key_frames import find_local_maxima
 from caesura.core.frames.blocks import split_into_blocks
 from caesura.core.parameters import Parameters
@@ -216,7 +216,7 @@ def main() -> None:
     if not quick:
         rows += [*skinned(turns), *memory(given.huge)]
     if not quick:
-        (DOCS / "performance.svg").write_text(drawn(series), encoding="utf-8")
+        (DOCS / "pictures" / "performance.svg").write_text(drawn(series), encoding="utf-8")
         write_section(DOCS / "performance.md", "speed", table(rows))
     print(table(rows))
     sys.exit(0 if all(row.holds for row in rows) else 1)

@@ -13,8 +13,8 @@ from tempfile import TemporaryDirectory
 import httpx
 import numpy as np
 
-from benchmarks.processes import Watch, service
-from benchmarks.report import write_section
+from benchmarks.reports.report import write_section
+from benchmarks.timing.processes import Watch, service
 
 DOCS = Path(__file__).resolve().parent.parent / "docs" / "performance.md"
 VERTICES = 40_000

@@ -17,7 +17,7 @@ from collections import Counter
 from benchmarks.attack.attacks import ATTACKS, Target, fill, prepare
 from benchmarks.load.crowd import polled
 from benchmarks.load.measure import Measure, percentile, table
-from benchmarks.processes import Running, Watch, service
+from benchmarks.timing.processes import Running, Watch, service
 
 SECONDS = 60.0
 MEGABYTE = 2**20

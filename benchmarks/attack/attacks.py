@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from itertools import count, islice
 from pathlib import Path
+from typing import Any
 from urllib.parse import urlsplit
 
 import httpx
@@ -43,10 +44,10 @@ class Target:
         """The status of the answer; 0 where there is none."""
         return self.ask("POST", path, content=content, headers=headers)
 
-    def ask(self, method: str, path: str, **request: object) -> int:
+    def ask(self, method: str, path: str, **request: Any) -> int:
         """The same of any call."""
         try:
-            return self.http.request(method, self.url + path, **request).status_code  # type: ignore[arg-type]
+            return self.http.request(method, self.url + path, **request).status_code
         except httpx.TransportError:
             return 0
 

@@ -21,15 +21,18 @@ from multiprocessing import get_context
 from pathlib import Path
 from tempfile import mkdtemp
 
-from benchmarks import chaos_client
-from benchmarks.chaos_client import Seen
-from benchmarks.chaos_disk import SmallDisk, small_disk
-from benchmarks.chaos_house import House
-from benchmarks.chaos_takes import takes
-from benchmarks.chaos_verdict import Verdict, verdict
-from benchmarks.report import write_section
+from benchmarks.chaos import client
+from benchmarks.chaos.client import Seen
+from benchmarks.chaos.disk import SmallDisk, small_disk
+from benchmarks.chaos.house import House
+from benchmarks.chaos.takes import takes
+from benchmarks.chaos.verdict import Verdict, verdict
+from benchmarks.reports.report import write_section
+from benchmarks.timing.receiver import Receiver
+from caesura.service.webhooks.signature import shown_secret
+from caesura.worker.records import content_ids
 
-DOCS = Path(__file__).resolve().parent.parent / "docs" / "operations.md"
+DOCS = Path(__file__).resolve().parent.parent.parent / "docs" / "operations.md"
 CLIENTS = 8
 LONGEST_SECONDS = 900.0
 BETWEEN_SECONDS = (0.3, 2.5)
@@ -97,13 +100,17 @@ def _run(
     began = time.monotonic()
     deadline = began + LONGEST_SECONDS
     numbered = list(enumerate(work))
+    secret = content_ids.installation_secret(house.jobs().redis, house.settings.secret)
+    receiver = Receiver(shown_secret(content_ids.webhook_secret(secret, "")))
     with ProcessPoolExecutor(CLIENTS, mp_context=get_context("spawn")) as clients:
         parts = [numbered[first::CLIENTS] for first in range(CLIENTS)]
-        running = [clients.submit(chaos_client.run, house.url, part, deadline) for part in parts]
+        running = [clients.submit(client.run, house.url, part, deadline, receiver.url) for part in parts]
         kills = Counter[str]() if chance is None else _fire(house, chance, running, disk)
         seen = _together([one.result() for one in running])
     seconds = time.monotonic() - began
-    return seen, verdict(house, len(work), seen, quiet), seconds, kills
+    found = verdict(house, len(work), seen, quiet, receiver)
+    receiver.die()
+    return seen, found, seconds, kills
 
 
 def _fire(house: House, chance: random.Random, running: list["Future[Seen]"], disk: SmallDisk | None) -> Counter[str]:

@@ -8,6 +8,7 @@ import time
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
 import httpx
 
@@ -29,11 +30,14 @@ class Seen:
     tally: Counter[str] = field(default_factory=Counter)
 
 
-def run(url: str, takes: list[tuple[int, bytes]], deadline: float) -> Seen:
-    """Send all, then fetch all; ends at `deadline` (of time.monotonic) with what there is."""
+def run(url: str, takes: list[tuple[int, bytes]], deadline: float, callback: str) -> Seen:
+    """Send all, then fetch all; ends at `deadline` (of time.monotonic) with what there is.
+
+    The service is asked to call `callback` for each.
+    """
     seen = Seen()
     with httpx.Client(base_url=url, trust_env=False, timeout=10) as http:
-        client = _Client(http, seen, deadline)
+        client = _Client(http, seen, deadline, callback)
         accepted = [(number, take, client.submit(take)) for number, take in takes]
         for number, take, identifier in accepted:
             client.fetch(number, take, identifier)
@@ -41,14 +45,15 @@ def run(url: str, takes: list[tuple[int, bytes]], deadline: float) -> Seen:
 
 
 class _Client:
-    def __init__(self, http: httpx.Client, seen: Seen, deadline: float) -> None:
+    def __init__(self, http: httpx.Client, seen: Seen, deadline: float, callback: str) -> None:
+        self._address = f"/v1/segmentations?callback_url={callback}"
         self._http = http
         self._seen = seen
         self._deadline = deadline
 
     def submit(self, take: bytes) -> str:
         """The id of the segmentation that was accepted; empty where time ran out."""
-        for answer in self._answers("POST", "/v1/segmentations", content=take):
+        for answer in self._answers("POST", self._address, content=take):
             if answer.status_code in {200, 202}:
                 return str(answer.json()["id"])
             if answer.status_code not in TRY_AGAIN:
@@ -98,11 +103,11 @@ class _Client:
                 self._seen.wrong.append(f"clips: {answer.status_code} {answer.text[:200]}")
                 return
 
-    def _answers(self, method: str, path: str, **request: object) -> Iterator[httpx.Response]:
+    def _answers(self, method: str, path: str, **request: Any) -> Iterator[httpx.Response]:
         """Answers to the same request, one after the other, until time runs out; broken connections are counted."""
         while time.monotonic() < self._deadline:
             try:
-                answer = self._http.request(method, path, **request)  # type: ignore[arg-type]  # content or headers
+                answer = self._http.request(method, path, **request)
             except httpx.TransportError:
                 self._seen.tally["connections broken"] += 1
             else:

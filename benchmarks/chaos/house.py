@@ -15,8 +15,8 @@ from pathlib import Path
 
 import httpx
 
-from benchmarks.chaos_clock import JumpingClock
-from benchmarks.processes import PROC
+from benchmarks.chaos.clock import JumpingClock
+from benchmarks.timing.processes import PROC
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.settings import WorkerSettings
 from caesura.worker.store.blobs import Blobs
@@ -47,6 +47,7 @@ class House:
             **kept,
             "CAESURA_DATA_DIR": str(self.folder),
             "CAESURA_SECRET": SECRET,
+            "CAESURA_PRIVATE_NETWORKS": "127.0.0.1",
             "CAESURA_MIN_FREE_BYTES": str(MIN_FREE_BYTES),
             **self.clock.environment,
         }
@@ -110,7 +111,7 @@ class House:
 
 
 WORDS = {
-    "caesura.service.process.web": "web",
+    "caesura.service.process.web_process": "web",
     "-m caesura.worker": "pool",
     "valkey-server": "Redis",
     "redis-server": "Redis",

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import httpx
 
-from benchmarks.chaos_client import Seen
-from benchmarks.chaos_house import House
+from benchmarks.chaos.client import Seen
+from benchmarks.chaos.house import House
+from benchmarks.timing.receiver import Receiver
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.retention.orphaned_blobs import delete_orphaned_blobs
 
@@ -37,7 +38,7 @@ class Verdict:
         ]
 
 
-def verdict(house: House, expected: int, seen: Seen, quiet: Seen | None) -> Verdict:
+def verdict(house: House, expected: int, seen: Seen, quiet: Seen | None, receiver: Receiver) -> Verdict:
     """Look everywhere, end the service, look for processes."""
     house.until_ready()
     jobs, said = house.jobs(), Verdict()
@@ -53,6 +54,8 @@ def verdict(house: House, expected: int, seen: Seen, quiet: Seen | None) -> Verd
         for identifier, _, _ in seen.results.values()
         if (record := jobs.records.segmentations.one(identifier)) is not None
     )
+    said.none("webhooks lost, or wrongly signed", _webhooks_lost(seen, receiver))
+    said.none("leftover webhooks", _leftover_webhooks(jobs))
     said.none("leftover files", _leftover(house, jobs, said))
     said.none("orphan processes", [str(pid) for pid in house.stop()])
     return said
@@ -95,6 +98,25 @@ def _different(seen: Seen, quiet: Seen) -> list[str]:
     ]
     clips = quiet.clips
     return [*results, *(f"clips of take {n}" for n, found in seen.clips.items() if clips.get(n, found) != found)]
+
+
+def _webhooks_lost(seen: Seen, receiver: Receiver) -> list[str]:
+    """Segmentations that are done, and that the receiver was never told of."""
+    done = [identifier for identifier, _, _ in seen.results.values()]
+    receiver.wait_for(done, QUIET_SECONDS)
+    return [*sorted(set(done) - receiver.told()), *(call.id for call in receiver.calls if not call.signed)]
+
+
+def _leftover_webhooks(jobs: Jobs) -> list[str]:
+    """What is still kept of calls that were made."""
+    deadline = time.monotonic() + QUIET_SECONDS
+    while (left := _webhook_keys(jobs)) and time.monotonic() < deadline:
+        time.sleep(0.5)
+    return left
+
+
+def _webhook_keys(jobs: Jobs) -> list[str]:
+    return [str(key) for kind in ("callbacks", "deliver") for key in jobs.redis.scan_iter(f"caesura:{kind}*")]
 
 
 def _leftover(house: House, jobs: Jobs, said: Verdict) -> list[str]:

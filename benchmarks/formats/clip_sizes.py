@@ -1,6 +1,6 @@
 """How large files come back in clips: each model cut in four, on its own frames and between its keys.
 
-    python -m benchmarks.clip_sizes ../shared/data
+    python -m benchmarks.formats.clip_sizes ../shared/data
 
 prints a line for each: bytes of the source (with its buffers), the share that the file with clips has of them, and the
 share that it would have if nothing were new but what glTF asks for: a channel, a sampler and accessors for whatever

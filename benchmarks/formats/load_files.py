@@ -1,9 +1,9 @@
 """Files, loaded and sampled: beside three.js in Node, and in memory that is bounded.
 
-`python -m benchmarks.load_files` loads each file and draws every frame of a take, here and in three.js, in alternation,
-and segments two long takes in processes of their own, whose anonymous memory is watched. It writes what it measured
-between the markers of docs/performance.md; `--print` writes nothing, `--quick` leaves the long takes out. Ends with
-status 1 where a bound is missed. three.js is the oracle of the tests: CAESURA_ORACLE names a copy of
+`python -m benchmarks.formats.load_files` loads each file and draws every frame of a take, here and in three.js, in
+alternation, and segments two long takes in processes of their own, whose anonymous memory is watched. It writes what
+it measured between the markers of docs/performance.md; `--print` writes nothing, `--quick` leaves the long takes out.
+Ends with status 1 where a bound is missed. three.js is the oracle of the tests: CAESURA_ORACLE names a copy of
 ../shared/tools/gltf-oracle in which `npm ci` was run.
 """
 
@@ -24,9 +24,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from benchmarks.fine_figure import fine_figure
-from benchmarks.report import write_section
-from benchmarks.stopwatch import AnonymousPeak
+from benchmarks.reports.report import write_section
+from benchmarks.takes.fine_figure import fine_figure
+from benchmarks.timing.stopwatch import AnonymousPeak
 from caesura.core.animation import Animation
 from caesura.core.frames.blocks import frames_per_block
 from caesura.core.limits import Limits
@@ -35,7 +35,7 @@ from caesura.core.pipeline import segment
 from caesura.formats.read import read_animation
 from caesura.samples.long_session import long_session
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parent.parent.parent
 DOCS = ROOT / "docs" / "performance.md"
 SHARED = ROOT.parent / "shared"
 TURNS = 3

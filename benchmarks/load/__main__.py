@@ -21,8 +21,8 @@ from benchmarks.load.measure import Measure, table
 from benchmarks.load.overhead import overhead
 from benchmarks.load.rates import rates
 from benchmarks.load.slider import analysed, slider, stored_bytes
-from benchmarks.processes import service
-from benchmarks.report import write_section
+from benchmarks.reports.report import write_section
+from benchmarks.timing.processes import service
 
 DOCS = Path(__file__).resolve().parent.parent.parent / "docs"
 

@@ -16,7 +16,7 @@ from urllib.parse import urlsplit
 from benchmarks.load.calls import Calls
 from benchmarks.load.measure import Measure, percentile
 from benchmarks.load.takes import different
-from benchmarks.processes import Running, descendants, role
+from benchmarks.timing.processes import Running, descendants, role
 from caesura.samples.long_session import long_session
 from caesura.samples.performed_take import RATE
 

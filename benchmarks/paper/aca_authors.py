@@ -1,6 +1,6 @@
 """Are these the methods of their authors? Theirs on their own features, beside the figures their own program gave.
 
-    python -m benchmarks.aca_authors --cmu ../shared/data/cmu86 --seeds 10
+    python -m benchmarks.paper.aca_authors --cmu ../shared/data/cmu86 --seeds 10
 
 Two trials of CMU subject 86, 120 frames a second, the number of motions told, the parameters their program has. Frame
 accuracy under the best matching of labels, on reduced frames as they count; mean and standard deviation over seeds. A
@@ -18,13 +18,13 @@ import numpy as np
 from jaxtyping import Float, Int
 from threadpoolctl import threadpool_limits
 
-from benchmarks.joint_angles import joint_angles, true_motions
-from benchmarks.report import ACCURACY, write_section
+from benchmarks.reports.report import ACCURACY, write_section
+from benchmarks.takes.joint_angles import joint_angles, true_motions
 from caesura.core.agreement import frame_accuracy
 from caesura.core.methods.alignment.cluster_analysis import cluster_by_alignment
 from caesura.core.methods.alignment.frame_kernel import frame_kernel
 from caesura.core.methods.alignment.hierarchy import cluster_in_two_levels
-from caesura.core.methods.alignment.initial_segmentation import InitialSegmentation
+from caesura.core.methods.alignment.initial_segmentation import InitialSegmenter
 from caesura.core.methods.alignment.segments import SegmentLengths
 from caesura.core.methods.alignment.short_runs import remove_short_runs
 from caesura.core.methods.alignment.spectral_clustering import cluster_spectrally
@@ -56,7 +56,7 @@ def aca(as_measured: bool) -> Method:
     """Segments of 32 to 60 samples, one initial segmentation."""
 
     def divide(kernel: Kernel, motions: int, seed: int) -> Labels:
-        first = InitialSegmentation.of(kernel, np.ones(len(kernel)), motions, SEGMENTS, as_measured=as_measured)
+        first = InitialSegmenter.of(kernel, np.ones(len(kernel)), motions, SEGMENTS, as_measured=as_measured)
         return cluster_by_alignment(kernel, first.weights, first.start(seed), first.lengths.longest).segments.per_sample
 
     return divide

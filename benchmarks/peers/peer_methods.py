@@ -17,8 +17,8 @@ import numpy as np
 from jaxtyping import Float, Int
 from sklearn.cluster import AgglomerativeClustering
 
-from benchmarks.detectors import DETECTORS
-from benchmarks.sequences import Known
+from benchmarks.peers.detectors import DETECTORS
+from benchmarks.takes.sequences import Known
 from caesura.core.agreement import cut_frames
 
 PEERS = tuple(DETECTORS)
@@ -68,7 +68,7 @@ class Peers:
 
 @contextmanager
 def peers(python: str) -> Iterator[Peers]:
-    """The peers that this Python has; it may be one of another environment (see benchmarks/peers.txt)."""
+    """The peers that this Python has; it may be one of another environment (see benchmarks/peers/requirements.txt)."""
     script = Path(__file__).with_name("detectors.py")
     with tempfile.TemporaryDirectory() as folder:
         pipe = subprocess.PIPE

@@ -6,12 +6,13 @@ from itertools import pairwise
 import numpy as np
 from jaxtyping import Int
 
-from benchmarks.cmu import Annotation
+from benchmarks.takes.cmu import Annotation
 from caesura.core.agreement import cut_frames
 from caesura.core.segmentation import Segmentation
 
 WIDTH, CURVE, BAR, GAP, LEFT = 960, 170, 26, 10, 70  # pixels
-COLOURS = ("#4477aa", "#ccbb44", "#ee6677", "#228833", "#66ccee", "#aa3377")  # Tol's bright scheme, colour-blind safe
+COLOURS = ("#4477aa", "#ccbb44", "#ee6677", "#228833", "#66ccee", "#aa3377", "#bbbbbb")
+"""Tol's bright scheme, colour-blind safe."""
 INK = "#222222"
 LEFT_OF_BARS = 40  # pixels more for names of methods
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from benchmarks.drawing import COLOURS, INK
+from benchmarks.reports.drawing import COLOURS, INK
 
 WIDTH, HEIGHT, MARGIN = 640, 400, 70  # pixels
 

@@ -5,8 +5,15 @@ from dataclasses import astuple, dataclass
 import numpy as np
 from jaxtyping import Int
 
-from benchmarks.sequences import Known
-from caesura.core.agreement import adjusted_rand_index, boundary_scores, cut_frames, frame_accuracy, segment_f1
+from benchmarks.takes.sequences import Known
+from caesura.core.agreement import (
+    adjusted_rand_index,
+    boundary_scores,
+    cut_frames,
+    frame_accuracy,
+    rand_index,
+    segment_f1,
+)
 
 
 @dataclass(frozen=True)
@@ -15,6 +22,7 @@ class Scores:
 
     accuracy: float
     rand: float
+    adjusted_rand: float
     segments: tuple[float, float, float]  # F1 at an overlap of 10, 25 and 50 %
     boundary: tuple[float, float]  # F1 within 0.5 and 0.15 s
     motions: float
@@ -31,6 +39,7 @@ class Scores:
         found = len(np.unique(labels))
         return cls(
             frame_accuracy(labels, truth),
+            rand_index(labels, truth),
             adjusted_rand_index(labels, truth),
             (tenth, quarter, half),
             (wide, narrow),
@@ -46,7 +55,7 @@ class Scores:
         return [float(value) for value in np.hstack(astuple(self))]
 
 
-ACCURACY, RAND, TENTH, QUARTER, HALF, WIDE, NARROW, MOTIONS, EXACT, HITS, SECONDS = range(11)
+ACCURACY, RAND, ADJUSTED, TENTH, QUARTER, HALF, WIDE, NARROW, MOTIONS, EXACT, HITS, SECONDS = range(12)
 """Where the figures stand in `Scores.flat`."""
 
 

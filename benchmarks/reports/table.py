@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from benchmarks.scores import ACCURACY, EXACT, HITS, MOTIONS, NARROW, SECONDS, WIDE, Row, mean, of
+from benchmarks.reports.scores import ACCURACY, EXACT, HITS, MOTIONS, NARROW, SECONDS, WIDE, Row, mean, of
 
 HEAD = (
-    "take                      method         told    features      accuracy  ± sd   ARI    F1@10  F1@25  F1@50"
+    "take                      method         told    features       accuracy  ± sd   Rand   ARI    F1@10  F1@25  F1@50"
     "  F1@0.5s  F1@0.15s  K found/true  hits   seconds  seeds"
 )
 REPORTED = ("shared", "kept back")
@@ -26,8 +26,8 @@ def means(rows: list[Row]) -> list[str]:
     wanted = {**groups, "reported": REPORTED, "in all": tuple(groups)}
     lines = []
     for name, included in wanted.items():
-        for method, told in dict.fromkeys((row.method, row.told) for row in rows):
-            of_it = of(rows, method, told, *included)
+        for method, told, features in dict.fromkeys((row.method, row.told, row.features) for row in rows):
+            of_it = [row for row in of(rows, method, told, *included) if row.features == features]
             if of_it:
                 lines.append(_mean(name, of_it))
     return lines
@@ -45,11 +45,11 @@ def _mean(group: str, rows: list[Row]) -> str:
 
 
 def _text(name: str, row: Row, values: np.ndarray, deviation: float, motions: str, hits: str) -> str:
-    accuracy, rand, tenth, quarter, half, wide, narrow = values[:MOTIONS]
+    accuracy, rand, adjusted, tenth, quarter, half, wide, narrow = values[:MOTIONS]
     return (
-        f"{name:24}  {row.method:13}  {row.told:6}  {row.features:12}  {accuracy:8.3f}  {deviation:.3f}  {rand:.3f}"
-        f"  {tenth:.3f}  {quarter:.3f}  {half:.3f}  {wide:7.3f}  {narrow:8.3f}  {motions:>12}  {hits:>6}"
-        f"  {values[SECONDS]:7.2f}  {len(row.scores):5}"
+        f"{name:24}  {row.method:13}  {row.told:6}  {row.features:13}  {accuracy:8.3f}  {deviation:.3f}  {rand:.3f}"
+        f"  {adjusted:.3f}  {tenth:.3f}  {quarter:.3f}  {half:.3f}  {wide:7.3f}  {narrow:8.3f}"
+        f"  {motions:>12}  {hits:>6}  {values[SECONDS]:7.2f}  {len(row.scores):5}"
     )
 
 

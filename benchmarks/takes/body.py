@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from benchmarks.acclaim import Acclaim
+from benchmarks.takes.acclaim import Acclaim
 from caesura.samples.implicit_surface import Limb, Surface, polygonise_limbs
 from caesura.samples.skin_weights import heat_weights
 

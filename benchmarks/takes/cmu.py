@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float, Int
 
-from benchmarks.acclaim import Acclaim, read_motion, read_skeleton
-from benchmarks.body import SHARPNESS, Body, body
+from benchmarks.takes.acclaim import Acclaim, read_motion, read_skeleton
+from benchmarks.takes.body import SHARPNESS, Body, body
 from caesura.core.animation import Animation, Take
 
 STEP = 4

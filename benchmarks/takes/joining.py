@@ -14,11 +14,11 @@ from jaxtyping import Float, Int
 from caesura.core.animation import Animation, Take
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
-from caesura.formats.file_header import read_header
 from caesura.formats.gltf.animation.sampling import KeyTracks
-from caesura.formats.gltf.posing.nodes import R
-from caesura.formats.gltf.posing.vertices import PosedVertices
+from caesura.formats.gltf.posing.node_graph import R
+from caesura.formats.gltf.posing.posed_vertices import PosedVertices
 from caesura.formats.read import read_animation
+from caesura.formats.upload_summary import read_header
 
 RATE = 30.0
 SECONDS = (3.0, 8.0)  # of a segment

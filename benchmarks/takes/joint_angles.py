@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial.transform import Rotation
 
-from benchmarks.acclaim import read_motion
+from benchmarks.takes.acclaim import read_motion
 
 JOINTS = (
     "lowerback", "upperback", "thorax", "lowerneck", "upperneck", "head", "rhumerus", "rradius", "lhumerus", "lradius",

@@ -1,6 +1,7 @@
 """Labels that a person brings: a result document, a truth, a CSV or an EAF beside the file they are of."""
 
 import csv
+import json
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -8,7 +9,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 from jaxtyping import Int
 
-from caesura.service.commands.labelling import Labelling
+from caesura.service.commands.frame_labels import Labelling
 
 ENDINGS = (".truth.json", ".json", ".csv", ".eaf")
 MODELS = (".glb", ".gltf", ".npz", ".bvh", ".zip")
@@ -58,7 +59,7 @@ def per_frame(stretches: list[Stretch], frames: int, frame_rate: float) -> Int[n
 
 
 def _from_json(path: Path) -> list[Stretch]:
-    labelling = Labelling.read(path)
+    labelling = Labelling.of(json.loads(path.read_text(encoding="utf-8")))
     rate = labelling.frame_rate
     return [Stretch(label, start / rate, end / rate) for start, end, label in labelling.segments]
 

@@ -9,14 +9,15 @@ from typing import Any
 import numpy as np
 from jaxtyping import Int
 
-from benchmarks import choreography as choreographies
-from benchmarks import joining
-from benchmarks.choreography import choreography
-from benchmarks.cmu import annotation, skinned
-from benchmarks.creatures import creature
-from benchmarks.joining import Joined, joined
-from benchmarks.labelled import Stretch, labelled, per_frame, read_labels
+from benchmarks.takes import choreography as choreographies
+from benchmarks.takes import joining
+from benchmarks.takes.choreography import choreography
+from benchmarks.takes.cmu import annotation, skinned
+from benchmarks.takes.creatures import creature
+from benchmarks.takes.joining import Joined, joined
+from benchmarks.takes.labelled import Stretch, labelled, per_frame, read_labels
 from caesura.core.analysis import Analysis
+from caesura.core.animation import Animation
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse
@@ -44,6 +45,11 @@ class Known:
     truth: Int[np.ndarray, "frames"]
     ranges: tuple[tuple[int, int], ...] = ()
     repeats: tuple[int, ...] = ()
+    animation: Animation | None = None
+
+    def from_first_frame(self) -> Analysis | None:
+        """The same with the first frame as rest pose; None where the vertices are not at hand."""
+        return None if self.animation is None else analyse(self.animation, Parameters(rest=0))
 
     @property
     def motions(self) -> int:
@@ -53,24 +59,28 @@ class Known:
     @classmethod
     def of_sample(cls, name: str, group: str, sample: Sample, threads: int = 1) -> "Known":
         """A take of the sample figures."""
-        analysis = _analysed("sample.glb", sample.glb, threads)
+        animation = _read("sample.glb", sample.glb)
+        analysis = analyse(animation, threads=threads)
         repeats = tuple(len(ends) for ends in sample.truth.repeats)
-        return cls(name, group, analysis, truth_of(sample.truth.document(), analysis), repeats=repeats)
+        truth = truth_of(sample.truth.document(), analysis)
+        return cls(name, group, analysis, truth, repeats=repeats, animation=animation)
 
     @classmethod
     def of_joined(cls, name: str, group: str, made: Joined, threads: int = 1) -> "Known":
         """A take joined from clips."""
-        return cls(name, group, analyse(made.animation, threads=threads), made.truth, repeats=made.repeats)
+        analysis = analyse(made.animation, threads=threads)
+        return cls(name, group, analysis, made.truth, repeats=made.repeats, animation=made.animation)
 
 
 def sequences(folder: Path | None, cmu: Path | None, *, figures: bool, held_back: int, threads: int) -> Iterator[Known]:
     """Captured trials, then the labelled files of a folder, then the sample characters and takes kept back."""
     yield from captured(cmu, threads) if cmu else ()
     for model, labels in labelled(folder).items() if folder else ():
-        analysis = _analysed(model.name, model.read_bytes(), threads)
+        animation = _read(model.name, model.read_bytes())
+        analysis = analyse(animation, threads=threads)
         truth = per_frame(read_labels(labels), analysis.frames, analysis.frame_rate)
         name = model.stem
-        yield Known(name, "development" if name in DEVELOPMENT else "shared", analysis, truth)
+        yield Known(name, "development" if name in DEVELOPMENT else "shared", analysis, truth, animation=animation)
     for name in FIGURES if figures else ():
         yield Known.of_sample(f"figure {name}", "development", build_figure(name), threads)
     yield from islice(kept_back(HELD_BACK, threads), held_back)
@@ -80,9 +90,10 @@ def captured(folder: Path, threads: int) -> Iterator[Known]:
     """Every trial of a CMU subject in a folder of SUBJECT.asf, TRIAL.amc and mocap.txt."""
     for motion in sorted(folder.glob("*.amc")):
         annotated = annotation((folder / "mocap.txt").read_text(), motion.stem)
-        analysis = analyse(skinned(folder, motion.stem), Parameters(), threads=threads)
+        animation = skinned(folder, motion.stem)
+        analysis = analyse(animation, threads=threads)
         frames = np.concatenate([annotated.frames, annotated.frames[-1:].repeat(analysis.frames)])[: analysis.frames]
-        yield Known(motion.stem, "captured", analysis, frames, annotated.ranges[:-1])
+        yield Known(motion.stem, "captured", analysis, frames, annotated.ranges[:-1], animation=animation)
 
 
 def kept_back(
@@ -111,6 +122,5 @@ def truth_of(document: dict[str, Any], analysis: Analysis) -> Int[np.ndarray, "f
     return per_frame(stretches, analysis.frames, analysis.frame_rate)
 
 
-def _analysed(name: str, data: bytes, threads: int) -> Analysis:
-    animation = read_animation({name: data}, Parameters(), Limits.none(), lambda size: memoryview(bytearray(size)))
-    return analyse(animation, threads=threads)
+def _read(name: str, data: bytes) -> Animation:
+    return read_animation({name: data}, Parameters(), Limits.none(), lambda size: memoryview(bytearray(size)))

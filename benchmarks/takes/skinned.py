@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from benchmarks.curve import Curve
-from benchmarks.fine_figure import fine_figure
+from benchmarks.takes.fine_figure import fine_figure
+from benchmarks.timing.curve import Curve
 from caesura.core.animation import Animation
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from caesura.core.animation import Animation
-from caesura.core.block_pass.measured_body import NO_PATCHES, MeasuredBody
+from caesura.core.block_pass.descriptor_set import NO_PATCHES, DescriptorSet
 from caesura.core.block_pass.quantisation import CODES
 from caesura.core.block_pass.rest_pose import compute_rest_pose
 from caesura.core.block_pass.vertex_pass import PassResult, run_block_pass
@@ -30,12 +30,12 @@ class Curve:
     memory_bytes: int = CODES_BYTES
 
     @cached_property
-    def whole(self) -> MeasuredBody:
+    def whole(self) -> DescriptorSet:
         """All that the pipeline measures."""
-        return MeasuredBody.of(self.animation, compute_rest_pose(self.animation, "bind"), Parameters())[0]
+        return DescriptorSet.of(self.animation, compute_rest_pose(self.animation, "bind"), Parameters())[0]
 
     @cached_property
-    def bare(self) -> MeasuredBody:
+    def bare(self) -> DescriptorSet:
         """Strain, and nothing else."""
         pairs = self.whole.pairs
         none = replace(pairs, first=pairs.first[:0], second=pairs.second[:0], at_rest=pairs.at_rest[:0])

@@ -15,7 +15,7 @@ LOOK_SECONDS = 0.2
 PROC = Path("/proc")
 
 ROLES = (
-    ("caesura.service.process.web", "web"),
+    ("caesura.service.process.web_process", "web"),
     ("valkey-server", "Redis"),
     ("redis-server", "Redis"),
     ("caesura serve", "supervisor"),
@@ -75,13 +75,13 @@ def descendants(root: int) -> list[int]:
 
 
 @contextmanager
-def service() -> Iterator[Running]:
-    """A service of our own on a free port, with a data folder that is gone afterwards."""
+def service(**settings: str) -> Iterator[Running]:
+    """A service of our own on a free port, with a data folder that is gone afterwards; `settings` as variables."""
     with TemporaryDirectory(prefix="caesura-bench-") as folder:
         environment = {name: value for name, value in os.environ.items() if name != "REDIS_URL"}
         process = subprocess.Popen(
             [sys.executable, "-m", "caesura.service.commands.cli", "serve", "--port", "0"],
-            env=environment | {"CAESURA_DATA_DIR": folder},
+            env=environment | {"CAESURA_DATA_DIR": folder} | settings,
             stdout=subprocess.PIPE,
             stderr=(Path(folder) / "log").open("wb"),
             text=True,

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
-from benchmarks.aca_authors import AUTHORS, METHODS, REDUCED_BY, TRIALS, row
-from benchmarks.joint_angles import JOINTS, joint_angles, true_motions
+from benchmarks.paper.aca_authors import AUTHORS, METHODS, REDUCED_BY, TRIALS, row
+from benchmarks.takes.joint_angles import JOINTS, joint_angles, true_motions
 from caesura.core.agreement import frame_accuracy
 from caesura.core.methods.alignment.frame_kernel import frame_kernel
 from caesura.core.methods.alignment.temporal_reduction import reduce_frames

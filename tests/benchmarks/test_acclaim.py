@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from benchmarks.acclaim import METRES, read_motion, read_skeleton, rotation
-from benchmarks.cmu import annotation
+from benchmarks.takes.acclaim import METRES, read_motion, read_skeleton, rotation
+from benchmarks.takes.cmu import annotation
 
 INCH = 1 / METRES  # a unit that makes the file's lengths metres
 ASF = f"""# two bones: an arm along x whose own frame is turned by 90 degrees about z, and a hand that only bends

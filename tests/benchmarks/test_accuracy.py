@@ -6,7 +6,7 @@ import sys
 import numpy as np
 import pytest
 
-from benchmarks.sequences import truth_of
+from benchmarks.takes.sequences import truth_of
 from caesura.core.analysis import Analysis
 from caesura.core.segmentation_document import Source
 

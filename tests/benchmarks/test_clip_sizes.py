@@ -2,7 +2,7 @@
 
 import sys
 
-from benchmarks.clip_sizes import main
+from benchmarks.formats.clip_sizes import main
 from tests.formats.clips.test_clip_sizes import swaying
 
 

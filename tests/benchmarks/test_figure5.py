@@ -5,9 +5,9 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from benchmarks.cmu import Annotation, annotation, skinned
-from benchmarks.drawing import drawn
-from benchmarks.figure5 import STATED, TRIAL, Run, stated
+from benchmarks.paper.figure5 import STATED, TRIAL, Run, stated
+from benchmarks.reports.drawing import drawn
+from benchmarks.takes.cmu import Annotation, annotation, skinned
 from caesura.core.segmentation import Segmentation
 from caesura.core.segmentation_document import Source
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from benchmarks.choreography import both_sides, choreography, mirrored
-from benchmarks.creatures import creature
-from benchmarks.joining import joined
+from benchmarks.takes.choreography import both_sides, choreography, mirrored
+from benchmarks.takes.creatures import creature
+from benchmarks.takes.joining import joined
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse
 from caesura.samples.motion_curves import Motion

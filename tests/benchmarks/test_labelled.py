@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from benchmarks.labelled import labelled, per_frame, read_labels
+from benchmarks.takes.labelled import labelled, per_frame, read_labels
 
 TRUTH = {
     "fps": 30,

@@ -9,8 +9,9 @@ import pytest
 from benchmarks.counting import summary, verdict
 from benchmarks.doubt import row, share_in_least_fifth
 from benchmarks.edges import cases, outcome
-from benchmarks.peers import NotInstalled, peers
-from benchmarks.sequences import Known
+from benchmarks.peers.peer_methods import NotInstalled, peers
+from benchmarks.reports.cuts import JudgedCuts
+from benchmarks.takes.sequences import Known
 from caesura.core.analysis import Analysis, Features
 from caesura.core.registry.methods import METHODS
 from caesura.core.segmentation_document import Source
@@ -39,8 +40,10 @@ def test_the_share_of_wrong_cuts_in_the_least_sure_fifth():
 
 def test_takes_without_a_wrong_cut_do_not_count_per_take():
     """Nor do those of fewer cuts than five; pooled, all do."""
-    fine, poor = (np.linspace(0.5, 1, 5), np.zeros(5)), (np.linspace(0, 1, 5), np.array([0.2, 0, 0, 0, 0]))
-    assert row("all", [fine, poor], 0.15) == "| all | 0.15 s | 10 | 1 | 100% | 100% of 1 | 100%, 11% |"
+    near, far = np.zeros(4), np.array([0.0, 0, 0, 9])
+    fine = JudgedCuts(np.linspace(0.5, 1, 5), np.zeros(5), near, far, 1)
+    poor = JudgedCuts(np.linspace(0, 1, 5), np.array([0.2, 0, 0, 0, 0]), np.array([0.2, 3, 0, 9]), far, 2)
+    assert row("all", [fine, poor], 0.15) == "| all | 0.15 s | 10 | 1 | 100% | 100% of 1 | 100%, 11% | 3 | 2 of 3 |"
 
 
 def test_every_edge_has_an_honest_answer_from_every_method():

@@ -4,11 +4,11 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from benchmarks.curve import Curve
-from benchmarks.growth import Series, drawn
-from benchmarks.numpy_twin import twin
+from benchmarks.reports.growth import Series, drawn
 from benchmarks.speed import Row, table
-from benchmarks.tube import Tube
+from benchmarks.takes.tube import Tube
+from benchmarks.timing.curve import Curve
+from benchmarks.timing.numpy_twin import twin
 from caesura.core.energy.key_frames import find_local_maxima
 
 FRAMES = 150

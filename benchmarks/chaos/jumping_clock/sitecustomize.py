@@ -6,7 +6,9 @@ whoever sets the time of a machine. Redis is no Python, and keeps its own time.
 
 import datetime
 import os
+import sys
 import time
+from importlib.abc import MetaPathFinder
 from pathlib import Path
 from typing import Any
 
@@ -35,5 +37,15 @@ class JumpedDatetime(SystemDatetime, metaclass=_IsDatetime):
         return SystemDatetime.fromtimestamp(jumped_time(), tz)
 
 
+class WithoutPandas(MetaPathFinder):
+    """pandas, where it is installed, is built against the real `datetime`; scikit-learn does without it."""
+
+    def find_spec(self, fullname: str, *_: object, **__: object) -> None:
+        """Refuse pandas, and leave all else to others."""
+        if fullname == "pandas":
+            raise ModuleNotFoundError(fullname)
+
+
+sys.meta_path.insert(0, WithoutPandas())
 time.time = jumped_time
 datetime.datetime = JumpedDatetime  # type: ignore[misc]

@@ -1,0 +1,1 @@
+"""Everything is killed at random while takes are segmented: `python -m benchmarks.chaos`."""

@@ -1,0 +1,1 @@
+"""Change point detection by others, in an environment of its own."""

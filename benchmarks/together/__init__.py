@@ -1,0 +1,1 @@
+"""Several takes together: accuracy over all of them, takes added, search by example, and growth."""
