@@ -1,4 +1,4 @@
-"""Draw docs/architecture.svg from the imports of the code: the packages, their rooms, and the way of the data.
+"""Draw docs/pictures/architecture.svg from the imports of the code: the packages, their rooms, and the way of the data.
 
     python tools/architecture.py            draws the picture
     python tools/architecture.py --check    fails where rooms import each other in a circle, or upwards, or the
@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parent.parent
-PICTURE = ROOT / "docs" / "architecture.svg"
+PICTURE = ROOT / "docs" / "pictures" / "architecture.svg"
 COLOURS = {
     "service": "#a23b72",
     "worker": "#c8553d",
@@ -223,7 +223,7 @@ def main() -> int:
     if not check:
         PICTURE.write_text(text, encoding="utf-8")
     elif not PICTURE.exists() or PICTURE.read_text(encoding="utf-8") != text:
-        sys.exit("docs/architecture.svg is old: run python tools/architecture.py")
+        sys.exit("docs/pictures/architecture.svg is old: run python tools/architecture.py")
     inside = sum(package_of(room) == package_of(other) for room, others in imports.items() for other in others)
     print(f"{len(imports)} rooms, {inside} imports within packages, no circle, none upwards")
     return 0

