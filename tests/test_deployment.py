@@ -10,7 +10,7 @@ import yaml
 from caesura.service.commands.cli import main
 from caesura.service.settings import ServiceSettings
 from caesura.worker.queue.queues import QUEUES
-from tests.test_settings_table import variable
+from tests.docs.test_settings_table import variable
 
 USER = 10001
 

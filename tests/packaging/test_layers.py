@@ -48,7 +48,7 @@ def test_an_arrow_that_points_up_is_noticed(copy: Path, module: str, line: str) 
 
 
 def test_the_picture_of_the_rooms_is_drawn_from_the_imports(checkout: Path) -> None:
-    """No two rooms import each other in a circle, none imports upwards, and docs/architecture.svg shows it."""
+    """No two rooms import each other in a circle, none imports upwards, and docs/pictures/architecture.svg shows it."""
     program = [sys.executable, "tools/architecture.py", "--check"]
     run = subprocess.run(program, check=False, cwd=checkout, capture_output=True, text=True, timeout=60)
     assert run.returncode == 0, run.stderr

@@ -19,7 +19,7 @@ TOYS = {
         '        DescriptorEntry("geodesic"',
         '        DescriptorEntry("toy-descriptor", "toy:Toy", "how much of a toy it is"),\n',
     ),
-    "formats/exports/table.py": (
+    "formats/exports/export_table.py": (
         '    Export("result.npz"',
         '    _text("result.toy", "Toy", "a toy", "text/x-toy", "toy:toy", option="toy", option_help="Write a toy."),\n',
     ),
@@ -47,8 +47,8 @@ from caesura.core.registry.descriptors import DESCRIPTORS
 from caesura.core.registry.methods import METHODS
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
-from caesura.formats.exports.table import exports_of
-from caesura.formats.file_header import read_header
+from caesura.formats.exports.export_table import exports_of
+from caesura.formats.upload_summary import read_header
 from caesura.formats.read import read_animation
 from caesura.service.app import create_app
 from caesura.service.commands.cli import main
@@ -124,7 +124,7 @@ def test_an_input_format_is_a_file_and_a_line(offered: dict[str, Any]) -> None:
 
 def test_an_export_is_a_file_and_a_line(offered: dict[str, Any]) -> None:
     """It has an address, a line in the page's menu and an option, and is written."""
-    result = offered["openapi"]["paths"]["/v1/segmentations/{identifier}/result.{suffix}"]["get"]
+    result = offered["openapi"]["paths"]["/v1/segmentations/{identifier}/result.toy"]["get"]
     assert "text/x-toy" in result["responses"]["200"]["content"]
     assert {"path": "result.toy", "title": "Toy", "description": "a toy", "queued": False} in offered["exports"]
     assert re.search(r"--toy \S+ +Write a toy\.", offered["help"])
@@ -159,4 +159,6 @@ def test_every_folder_has_a_sentence(checkout: Path) -> None:
     folders = {
         file.parent.relative_to(checkout) for name in packages for file in (checkout / name).rglob("__init__.py")
     }
+    own = {file.parent for file in (checkout / "caesura").glob("*/__init__.py") if not file.parent.is_symlink()}
+    folders |= {folder.relative_to(checkout) for folder in own}
     assert listed == {str(folder) for folder in folders if len(folder.parts) > 1} | {"service/static"}

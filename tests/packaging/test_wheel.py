@@ -56,17 +56,23 @@ def lend(found: Distribution, site: Path) -> None:
 def test_the_wheel_has_the_page_and_no_more(wheel: Path) -> None:
     """The page and its libraries are inside; tests, benchmarks and tools are not."""
     names = zipfile.ZipFile(wheel).namelist()
-    assert {"caesura/service/static/index.html", "caesura/service/static/vendor/stamp.txt", "caesura/py.typed"} <= set(
-        names
-    )
+    page = "caesura/service/static"
+    needed = {
+        f"{page}/index.html",
+        f"{page}/vendor/stamp.txt",
+        f"{page}/vendor/samples/samples.json",
+        "caesura/py.typed",
+    }
+    assert needed <= set(names)
     assert [name for name in names if name.startswith("caesura/service/static/vendor/three/")]
     tops = {name.split("/")[0] for name in names}
     assert tops == {"caesura", f"caesura-{wheel.name.split('-')[1]}.dist-info"}
 
 
+@pytest.mark.release
 @pytest.mark.timeout(600)  # it compiles every kernel anew: 25 s of work, on a machine that may be busy
 def test_the_wheel_runs_the_demo_in_an_empty_environment(checkout: Path, wheel: Path, tmp_path: Path) -> None:
-    """Nothing of the checkout, of the tests' tools or of anybody's home is needed: both figures are cut as made."""
+    """Beside folders of the same names, without the checkout or anybody's home: both figures are cut as made."""
     home = tmp_path / "home"
     home.mkdir()
     venv.create(tmp_path / "empty", symlinks=True)
@@ -76,6 +82,9 @@ def test_the_wheel_runs_the_demo_in_an_empty_environment(checkout: Path, wheel: 
         lend(found, site)
     pip = [sys.executable, "-m", "pip", "--python", str(python), "--isolated", "--disable-pip-version-check"]
     subprocess.run([*pip, "install", "--quiet", "--no-deps", "--no-index", str(wheel)], check=True)
+    for taken in ("core", "formats", "service", "worker"):  # another project's own, which nothing here may import
+        (site / taken).mkdir()
+        (site / taken / "__init__.py").write_text("raise RuntimeError('the folder of another project')\n")
     environment = {"HOME": str(home), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"}
     program = tmp_path / "empty" / "bin" / "caesura"
     run = subprocess.run(

@@ -4,7 +4,7 @@ import json
 import subprocess
 import sys
 
-from caesura.service.commands.outputs import OUTPUT_FORMATS
+from caesura.service.commands.output_files import OUTPUT_FORMATS
 from tests.installation import take_npz
 
 MISSING_MODULES = ("fcntl", "resource", "pwd", "grp", "termios", "pty", "syslog")
@@ -40,7 +40,11 @@ def test_every_module_of_core_can_be_imported():
 import caesura.core, caesura.formats, caesura.samples
 for package in (caesura.core, caesura.formats, caesura.samples):
     for found in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
-        importlib.import_module(found.name)
+        try:
+            importlib.import_module(found.name)
+        except ModuleNotFoundError as missing:  # of an extra
+            if missing.name not in ("alembic3d", "pxr"):
+                raise
 print(hasattr(os, "fork"), end=" ")
 import fcntl
 """
