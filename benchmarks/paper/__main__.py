@@ -1,4 +1,4 @@
-"""Redoes the paper's table and figures on what can be had, and writes them into docs/paper.md and docs/paper-*.svg."""
+"""Redoes the paper's table and figures on what can be had, and writes them into docs/paper.md and its pictures."""
 
 import argparse
 from pathlib import Path
@@ -21,7 +21,7 @@ PAGE = DOCS / "paper.md"
 
 def ablation(takes: list[StandIn]) -> list[str]:
     """Each stand-in by the modified energy, the energy of neighbours, and plain distances of frames."""
-    lines = ["| take | `energy=` | key-frames | accuracy | Eq. 6 as accuracy |", "|---|---|---|---|---|"]
+    lines = ["| take | `energy=` | key-frames | frame accuracy | Eq. 6 as accuracy |", "|---|---|---|---|---|"]
     for take in takes:
         for energy in ("modified", "joint", "distance"):
             asked = take.parameters().model_copy(update={"energy": energy})

@@ -9,8 +9,8 @@ from caesura.core.pipeline import segment
 from caesura.core.segmentation import Segmentation
 
 COLUMNS = (
-    "animation", "triangles (paper)", "frames (paper)", "γ", "l/ω in γ", "key-frames", "accuracy", "Eq. 6 as accuracy",
-    "seconds (paper)",
+    "animation", "triangles (paper)", "frames (paper)", "γ", "l/ω in γ", "key-frames", "frame accuracy",
+    "Eq. 6 as accuracy", "seconds (paper)",
 )  # fmt: skip
 HEAD = (f"| {' | '.join(COLUMNS)} |", "|---" * len(COLUMNS) + "|")
 
