@@ -71,6 +71,8 @@ class CaesuraWorker(Worker):
         """In the worker: have a job done, and the next horse stand ready before the next job comes."""
         self._jobs.records.attempts.renew(job.id)
         super().execute_job(job, queue)
+        if self._horse is not None and self._horse.status is not None:
+            self._reap()
         self.prefork()
 
     def prefork(self) -> None:
@@ -91,18 +93,13 @@ class CaesuraWorker(Worker):
         self._given = time.monotonic()
 
     def wait_for_horse(self) -> tuple[int | None, int | None, Any]:
-        """In the worker: until the job is over; a horse that may do another one is kept."""
+        """In the worker: until the job is over."""
         assert self._horse is not None  # noqa: S101  it got the job
-        pid, status, used = self._horse.wait()
-        if used is not None:  # it has ended
-            self._horse.close()
-            self._horse = None
-        return pid, status, used
+        return *self._horse.wait(), None
 
     def _reap(self) -> None:
         if self._horse is not None:
             self._horse.close()
-            os.waitpid(self._horse.pid, 0)
             self._horse = None
 
     def _perform(self, order: str) -> bool:

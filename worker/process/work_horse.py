@@ -8,9 +8,9 @@ takes too much of ends it alone, and the next one is forked.
 import ctypes
 import os
 import signal
+import socket
 import sys
 from collections.abc import Callable
-from resource import struct_rusage
 
 from caesura.worker.parent_watch import end_with_parent
 
@@ -23,45 +23,65 @@ WorkFunction = Callable[[str], bool]
 
 
 class WorkHorse:
-    """The worker's hand on one fork. It ends when this is let go: `dismiss`, or the end of the worker."""
+    """The worker's hand on one fork. It ends when this is let go: `close`, or the end of the worker.
+
+    A timer of the worker's raises in `wait` every few seconds, and may do so just as the job is over. So the report is
+    looked at there and not taken, and the status is written down before the timer may strike: the next call finds both.
+    """
 
     def __init__(self, prepare: Callable[[], None], work: WorkFunction) -> None:
         orders, self._orders = os.pipe()
-        self._reports, reports = os.pipe()
+        self._reports, reports = socket.socketpair()  # a pipe cannot be looked into
+        self._reported = False
+        self.status: int | None = None
+        """How it ended, as `os.wait` has it; None while it lives."""
         parent = os.getpid()
         self.pid = os.fork()
         if self.pid == 0:
             os.close(self._orders)
-            os.close(self._reports)
+            self._reports.close()
             try:
                 _do_jobs(parent, orders, reports, prepare, work)
             finally:
                 os._exit(1)
         os.close(orders)
-        os.close(reports)
+        reports.close()
 
     def start_job(self, order: str) -> bool:
         """Let it do a job; False where it has ended meanwhile."""
+        if self._reported:
+            self._reports.recv(1)
+            self._reported = False
         try:
             os.write(self._orders, order.encode() + b"\n")
         except BrokenPipeError:
             return False
         return True
 
-    def wait(self) -> tuple[int, int, struct_rusage | None]:
-        """Until the job is done, or the fork has ended: its process id, exit status, and what it used."""
-        if os.read(self._reports, 1):
-            return self.pid, os.EX_OK, None
-        pid, status, used = os.wait4(self.pid, 0)
-        return pid, status, used
+    def wait(self) -> tuple[int, int]:
+        """Until the job is done, or the fork has ended: its process id, and its status as `os.wait` has it."""
+        if self.status is None and self._reports.recv(1, socket.MSG_PEEK):
+            self._reported = True
+            return self.pid, os.EX_OK
+        return self.pid, self._await_end()
 
     def close(self) -> None:
         """It gets no more orders, and ends."""
         os.close(self._orders)
-        os.close(self._reports)
+        self._reports.close()
+        self._await_end()
+
+    def _await_end(self) -> int:
+        if self.status is None:
+            held = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGALRM})
+            try:
+                _, self.status = os.waitpid(self.pid, 0)
+            finally:
+                signal.pthread_sigmask(signal.SIG_SETMASK, held)
+        return self.status
 
 
-def _do_jobs(parent: int, orders: int, reports: int, prepare: Callable[[], None], work: WorkFunction) -> None:
+def _do_jobs(parent: int, orders: int, reports: socket.socket, prepare: Callable[[], None], work: WorkFunction) -> None:
     """In the fork: one job after the other, as long as it may."""
     os.setpgrp()  # what it starts is killed with it
     end_with_parent(parent)
@@ -76,7 +96,7 @@ def _do_jobs(parent: int, orders: int, reports: int, prepare: Callable[[], None]
             if not again:
                 os._exit(os.EX_OK)
             _set_process_name(READY)
-            os.write(reports, b".")
+            reports.send(b".")
     os._exit(os.EX_OK)
 
 
