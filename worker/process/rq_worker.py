@@ -88,7 +88,7 @@ class CaesuraWorker(Worker):
         while self._horse is not None and not self._horse.start_job(order):  # it was killed while it stood there
             self._reap()
             self.prefork()
-        assert self._horse is not None  # noqa: S101  saddled above
+        assert self._horse is not None  # noqa: S101  made above
         self._horse_pid = self._horse.pid
         self._given = time.monotonic()
 
