@@ -83,7 +83,7 @@ class BlockPass:
         codes = self._kept(block)
         if codes is None:
             codes = np.empty((block[1] - block[0], self.body.surface.columns), np.uint16)
-            vertices = np.ascontiguousarray(self.animation.vertices(*block), np.float32)  # checked the first time
+            vertices = read_vertices(self.animation, block)
             for columns, tile in self.body.surface.tiles(vertices):
                 self.quantisation.write(tile, codes, columns.start)
         return codes

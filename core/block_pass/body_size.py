@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Float32, Float64, Int, Int32
 
 from caesura.core.animation import Animation, Vertices
+from caesura.core.frames.vertex_rows import gather_rows
 from caesura.core.kernels import descriptors
 from caesura.core.mesh.farthest_points import sample_farthest_points
 
@@ -56,7 +57,7 @@ def _sizes(
 ) -> Float64[np.ndarray, "frames"]:
     """The root of the area of triangles, or the length of lines."""
     rows = np.empty((len(members), 3, len(block)), np.float32)
-    descriptors.gather_rows(block, members, rows)
+    gather_rows(block, members, rows)
     if corners.shape[1] == 2:
         apart = rows[corners[:, 0]].astype(np.float64) - rows[corners[:, 1]]
         return np.asarray(np.sqrt(np.einsum("pcf,pcf->pf", apart, apart)).sum(axis=0))

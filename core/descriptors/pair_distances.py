@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float, Int, Int32
 
+from caesura.core.frames.vertex_rows import gather_rows
 from caesura.core.kernels import descriptors
 from caesura.core.mesh.farthest_points import sample_farthest_points
 
@@ -46,7 +47,7 @@ class PairDistances:
         """(distance − distance at rest) / size, float32, no unit: zero for a body that only moves rigidly."""
         members, first, second = self._ends
         rows = np.empty((len(members), 3, len(block)), np.float32)
-        descriptors.gather_rows(block, members, rows)
+        gather_rows(block, members, rows)
         changes = np.empty((len(first), len(block)), np.float32)
         descriptors.pair_changes(rows, first, second, self.at_rest, np.float32(1 / (self.size or 1.0)), changes)
         return changes.T

@@ -10,12 +10,14 @@ This form keeps its digits in float32; (tr / 2)² − det does not.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from jaxtyping import Float, Float32, Float64, Int
+from jaxtyping import Float, Float32, Float64, Int, Int32
 
 from caesura.core.frames.sampled_frames import ROUNDING
+from caesura.core.frames.vertex_rows import gather_rows, rows_of
 from caesura.core.kernels import descriptors
 from caesura.core.kernels.descriptors import TILE, WIDTH
 
@@ -36,6 +38,11 @@ class Tile:
     members: Int[np.ndarray, "v"]
     corners: Int[np.ndarray, "n 3"]
     shapes: Float32[np.ndarray, "n 3"]
+
+    @cached_property
+    def in_mesh(self) -> Int32[np.ndarray, "n 3"]:
+        """The corners among the vertices of the mesh."""
+        return np.ascontiguousarray(self.members[self.corners], np.int32)
 
 
 @dataclass(frozen=True)
@@ -92,15 +99,20 @@ class TriangleStrain:
 
         A stretch below a thousandth counts as a thousandth.
         """
+        whole = rows_of(block) if len(block) == WIDTH else None
+        whole = whole if whole is None else whole.reshape(-1, 3 * WIDTH)
         rows = np.empty((max((len(part.members) for part in self.parts), default=0), 3, WIDTH), np.float32)
         tile = np.empty((TILE, WIDTH), np.float32)
         for number, part in enumerate(self.parts):
             own, out, pieces = rows[: len(part.members)], tile[: len(part.corners)], []
             for start in range(0, len(block), WIDTH):
                 width = min(len(block) - start, WIDTH)
-                descriptors.gather_rows(block[start : start + width], part.members, own)
-                own[:, :, width:] = own[:, :, width - 1 : width]  # frames that are not there repeat the last
-                descriptors.strain_tile(own.reshape(-1, 3 * WIDTH), part.corners, part.shapes, self.measure, out)
+                if whole is not None:
+                    descriptors.strain_tile(whole, part.in_mesh, part.shapes, self.measure, out)
+                else:
+                    gather_rows(block, part.members, own, start)
+                    own[:, :, width:] = own[:, :, width - 1 : width]  # frames that are not there repeat the last
+                    descriptors.strain_tile(own.reshape(-1, 3 * WIDTH), part.corners, part.shapes, self.measure, out)
                 if len(block) != WIDTH:
                     pieces.append(out[:, :width].copy())
             yield slice(number * TILE, number * TILE + len(out)), np.concatenate(pieces, axis=1) if pieces else out

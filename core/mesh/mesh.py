@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Float32, Float64, Int, Int32
 
-from caesura.core.kernels import descriptors
+from caesura.core.frames.vertex_rows import gather_rows
 from caesura.core.kernels.descriptors import TILE
 
 
@@ -41,7 +41,7 @@ class Mesh:
     def rows(self, block: Float32[np.ndarray, "frames V 3"]) -> Float32[np.ndarray, "P 3 frames"]:
         """Where the points are, the frames innermost."""
         rows = np.empty((len(self.members), 3, len(block)), np.float32)
-        descriptors.gather_rows(block, self.members, rows)
+        gather_rows(block, self.members, rows)
         return rows
 
     def rows_at_rest(self) -> Float32[np.ndarray, "P 3 1"]:

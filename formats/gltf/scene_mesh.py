@@ -6,6 +6,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from caesura.core.errors import InvalidModel
+from caesura.core.kernels.descriptors import WIDTH
 from caesura.formats.gltf.animation.channels import morph_targets
 from caesura.formats.gltf.geometry.accessors import Accessors
 from caesura.formats.gltf.geometry.gpu_instancing import MeshInstances, read_instances
@@ -16,7 +17,7 @@ from caesura.formats.gltf.json_object import JsonObject
 from caesura.formats.gltf.posing.node_graph import NodeGraph
 from caesura.formats.gltf.posing.skins import IDENTITY, Skin, read_skin
 
-BONE_BYTES = 32 * 12 * 8
+BONE_BYTES = WIDTH * 12 * 4
 """Bytes of one bone's matrices in a block of frames: skins may share nodes, so that bones are more than nodes."""
 
 
