@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 FAST = {"contract", "reassoc", "nsz", "arcp", "afn"}  # never nnan or ninf: they delete finiteness checks
 
 Floats = NDArray[np.float64]
+Singles = NDArray[np.float32]
 Ints = NDArray[np.int64]
 
 
@@ -32,6 +33,63 @@ def viterbi(cost: Floats, penalty: float, labels: Ints) -> float:
         if t > 0:
             state = came_from[t, state]
     return float(least)
+
+
+@njit(nogil=True, cache=True)
+def squares_from_products(products: Floats, squares: Floats, mean_squares: Floats) -> None:
+    """Products −2 a · m of rows and means become squared distances: + a · a + m · m, and none below 0."""
+    for row in range(products.shape[0]):
+        for k in range(products.shape[1]):
+            products[row, k] = max(products[row, k] + squares[row] + mean_squares[k], 0.0)
+
+
+@njit(nogil=True, cache=True)
+def add_by_label(values: Floats, labels: Ints, sums: Floats) -> None:
+    """sums[label] += row, of every row and its label, one after another."""
+    for row in range(values.shape[0]):
+        of_label = sums[labels[row]]
+        for d in range(values.shape[1]):
+            of_label[d] += values[row, d]
+
+
+@njit(nogil=True, cache=True, fastmath=FAST)
+def distances_to_nearest(poses: Singles, examples: Singles, count: int, distances: Floats) -> None:
+    """The mean distance of every pose (poses, D) to the `count` nearest of as many examples or more (D, examples).
+
+    One direction after another, so that the loops over examples become vector instructions.
+    """
+    size = examples.shape[1]
+    square, least = np.empty(size, np.float32), np.empty(count, np.float32)
+    for i in range(poses.shape[0]):
+        square[:] = np.float32(0)
+        for d in range(poses.shape[1]):
+            of_pose, of_examples = poses[i, d], examples[d]
+            for e in range(size):
+                apart = of_examples[e] - of_pose
+                square[e] += apart * apart
+        least[:] = np.float32(np.inf)
+        for e in range(size):
+            if square[e] < least[count - 1]:
+                at = count - 1
+                while at > 0 and square[e] < least[at - 1]:
+                    least[at] = least[at - 1]
+                    at -= 1
+                least[at] = square[e]
+        total = 0.0
+        for n in range(count):
+            total += np.sqrt(least[n])
+        distances[i] = total / count
+
+
+@njit(nogil=True, cache=True)
+def add_links(
+    weights: Floats, columns: NDArray[np.int32], ends: NDArray[np.int32], labels: Ints, links: Floats
+) -> None:
+    """links[a, b] += the weights of all links from label a to label b, of a sparse matrix by rows."""
+    for row in range(len(labels)):
+        of_label = links[labels[row]]
+        for i in range(ends[row], ends[row + 1]):
+            of_label[labels[columns[i]]] += weights[i]
 
 
 @njit(nogil=True, cache=True, fastmath=FAST)

@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from caesura.core.analysis import Analysis, Features
+from caesura.core.kernels import repetition
 from caesura.core.segmentation_document import Interval, Loop
 from caesura.core.single_threaded_blas import single_threaded_blas
 
@@ -119,15 +120,7 @@ class _LoopSearch:
 
     def _cheapest(self, lags: range) -> tuple[float, int, int]:
         """The cost, the first frame and the length of the best loop of these lengths."""
-        poses, speeds, stride = self.poses, self.speeds, self.stride
-        best = (np.inf, 0, lags[0])
-        for lag in lags:
-            cost = _squares(poses[lag::stride] - poses[: len(poses) - lag : stride])
-            cost += SPEED_WEIGHT * _squares(speeds[lag::stride] - speeds[: len(speeds) - lag : stride])
-            at = int(cost.argmin())
-            if cost[at] < best[0]:
-                best = (float(cost[at]), at * stride, lag)
-        return best
+        return repetition.cheapest_loop(self.poses, self.speeds, SPEED_WEIGHT, np.array(lags, np.int64), self.stride)
 
     def _refined(self, at: int, lag: int) -> tuple[int, int]:
         """The best of the loops that begin and end less than a stride away."""

@@ -45,13 +45,6 @@ def _frame_differences(
 
     The last end is that of the passage: it is judged by the place before it.
     """
-    scale = 2 * float(np.einsum("pd,pd->", seen, seen)) / len(seen)
     found = np.zeros((len(seen) + 1, len(lags)))
-    for i, lag in enumerate(lags.tolist()):
-        apart = seen[lag:] - seen[:-lag]
-        total = np.concatenate([[0.0], np.cumsum(np.einsum("pd,pd->p", apart, apart) / scale)])
-        at = np.arange(len(apart))
-        first, last = np.maximum(at - around, 0), np.minimum(at + around + 1, len(apart))
-        found[lag:-1, i] = (total[last] - total[first]) / (last - first)
-        found[-1, i] = found[-2, i]
-    return found
+    repetition.mean_differences(np.ascontiguousarray(seen), lags, around, found)
+    return found / (2 * float(np.einsum("pd,pd->", seen, seen)) / len(seen))

@@ -12,6 +12,8 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy import sparse
 
+from caesura.core.kernels import switching
+
 SAMPLES_PER_SECOND = 10.0
 MOST_SAMPLES = 6000
 NEIGHBOURS = 10
@@ -51,9 +53,8 @@ class NeighbourGraph:
     def cut(self, labels: Int[np.ndarray, "frames"]) -> float:
         """The normalised cut: Σ over motions of the share of their links that lead to another motion."""
         found = np.unique(labels[self.at], return_inverse=True)[1]
-        count, moments = int(found.max()) + 1, len(found)
-        member = sparse.csr_matrix((np.ones(moments), (np.arange(moments), found)), (moments, count))
-        links = (member.T @ self.weights @ member).toarray()
+        links = np.zeros((int(found.max()) + 1,) * 2)
+        switching.add_links(self.weights.data, self.weights.indices, self.weights.indptr, found, links)
         volume = links.sum(axis=1)
         return float(((volume - np.diag(links)) / np.maximum(volume, _TINY)).sum())
 

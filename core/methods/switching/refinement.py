@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
+from caesura.core.kernels import switching
 from caesura.core.methods.switching.window_statistics import compute_speeds
 
 REACH_SECONDS = 0.5
@@ -106,7 +107,7 @@ def poses_and_speeds(
 
 def _examples(
     poses: Float[np.ndarray, "frames D"], labels: Int[np.ndarray, "frames"], cuts: Int[np.ndarray, "cuts"], guard: int
-) -> dict[int, Float[np.ndarray, "examples D"]]:
+) -> dict[int, Float[np.ndarray, "D examples"]]:
     """Frames of every motion, evenly chosen from those at least `guard` from a cut, or the middle thirds."""
     bounds = np.concatenate([[0], cuts, [len(labels)]])
     inside = np.zeros(len(labels), bool)
@@ -117,7 +118,7 @@ def _examples(
     for motion in np.unique(labels).tolist():
         frames = np.flatnonzero(inside & (labels == motion))
         chosen = np.linspace(0, len(frames) - 1, min(len(frames), EXAMPLES)).astype(np.int64)
-        found[motion] = poses[frames[chosen]]
+        found[motion] = np.ascontiguousarray(poses[frames[chosen]].T)
     return found
 
 
@@ -136,10 +137,9 @@ _NONE = np.zeros(0)
 
 
 def _distance_to_examples(
-    poses: Float[np.ndarray, "some D"], examples: Float[np.ndarray, "examples D"]
+    poses: Float[np.ndarray, "some D"], examples: Float[np.ndarray, "D examples"]
 ) -> Float[np.ndarray, "some"]:
     """Mean distance to the nearest examples."""
-    square = np.einsum("fd,fd->f", poses, poses)[:, None] + np.einsum("ed,ed->e", examples, examples)
-    distance = np.sqrt(np.maximum(square - 2 * poses @ examples.T, 0.0))
-    nearest = min(NEAREST, distance.shape[1])
-    return np.asarray(np.partition(distance, nearest - 1, axis=1)[:, :nearest].mean(axis=1, dtype=np.float64))
+    distances = np.empty(len(poses))
+    switching.distances_to_nearest(poses, examples, min(NEAREST, examples.shape[1]), distances)
+    return distances

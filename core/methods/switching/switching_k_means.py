@@ -50,25 +50,24 @@ def _run_once(
     """The cheapest labels for these means, and the means of those labels."""
     labels = np.empty(len(values), np.int64)
     cost = switching.viterbi(squared_distances(values, squares, means), penalty, labels)
-    used, labels = np.unique(labels, return_inverse=True)
-    return SwitchingClusters(labels, motion_means(values, labels, len(used)), cost)
+    used = np.bincount(labels, minlength=len(means)) > 0
+    labels = (np.cumsum(used) - 1)[labels]
+    return SwitchingClusters(labels, motion_means(values, labels, int(used.sum())), cost)
 
 
 def squared_distances(
     values: Float[np.ndarray, "rows D"], squares: Float[np.ndarray, "rows"], means: Float[np.ndarray, "K D"]
 ) -> Float[np.ndarray, "rows K"]:
     """Squared distances of rows to means; `squares` are the rows' squared lengths."""
-    cross = values @ means.T
-    cross *= -2
-    cross += squares[:, None]
-    cross += np.einsum("kd,kd->k", means, means)
-    return np.asarray(np.maximum(cross, 0.0, out=cross))
+    products = values @ (-2 * means.T)
+    switching.squares_from_products(products, squares, np.einsum("kd,kd->k", means, means))
+    return np.asarray(products)
 
 
 def motion_means(
     values: Float[np.ndarray, "rows D"], labels: Int[np.ndarray, "rows"], count: int
 ) -> Float[np.ndarray, "K D"]:
     """The mean of the rows of every label 0 … count−1; each label must have some."""
-    order = np.argsort(labels, kind="stable")
-    starts = np.searchsorted(labels[order], np.arange(count))
-    return np.asarray(np.add.reduceat(values[order], starts, axis=0) / np.bincount(labels, minlength=count)[:, None])
+    sums = np.zeros((count, values.shape[1]))
+    switching.add_by_label(np.ascontiguousarray(values), labels, sums)
+    return sums / np.bincount(labels, minlength=count)[:, None]

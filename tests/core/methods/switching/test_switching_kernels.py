@@ -4,8 +4,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from scipy import sparse
 
 from caesura.core.kernels import switching
+from caesura.core.methods.switching.switching_k_means import motion_means, squared_distances
 from tests import oracles
 
 RANDOM = np.random.default_rng(1)
@@ -51,3 +53,33 @@ def test_merges_are_those_of_looking_at_every_pair():
     first, second = np.zeros(24, np.int64), np.zeros(24, np.int64)
     switching.merge_order(means.copy(), weights.copy(), first, second)
     assert list(zip(first.tolist(), second.tolist(), strict=True)) == oracles.ward(means, weights)
+
+
+@pytest.mark.parametrize("examples", [5, 40, 600])
+def test_the_nearest_examples_are_those_of_all_distances_sorted(examples):
+    """The mean distance to the five nearest, where some are equally near."""
+    poses, known = (RANDOM.normal(size=(n, 30)).astype(np.float32).round(1) for n in (33, examples))
+    found = np.empty(33)
+    switching.distances_to_nearest(poses, np.ascontiguousarray(known.T), 5, found)
+    distances = np.linalg.norm(poses[:, None].astype(np.float64) - known, axis=2)
+    np.testing.assert_allclose(found, np.sort(distances, axis=1)[:, :5].mean(axis=1), rtol=1e-6)
+
+
+def test_links_are_counted_by_label():
+    """As by a matrix of all of them."""
+    weights = sparse.random(50, 50, 0.2, "csr", random_state=2)
+    labels = RANDOM.integers(0, 4, 50)
+    links = np.zeros((4, 4))
+    switching.add_links(weights.data, weights.indices, weights.indptr, labels, links)
+    member = np.eye(4)[labels]
+    np.testing.assert_allclose(links, member.T @ weights.toarray() @ member, rtol=1e-12)
+
+
+def test_means_and_distances_of_motions_are_those_of_their_rows():
+    """Motion by motion."""
+    values, labels = RANDOM.normal(size=(90, 7)), np.arange(90) % 4
+    means = motion_means(values, labels, 4)
+    np.testing.assert_allclose(means, [values[labels == k].mean(axis=0) for k in range(4)], rtol=1e-12)
+    squares = squared_distances(values, np.einsum("sd,sd->s", values, values), means)
+    np.testing.assert_allclose(squares, ((values[:, None] - means) ** 2).sum(axis=2), atol=1e-12)
+    assert (squared_distances(values, np.einsum("sd,sd->s", values, values), values) >= 0).all()
