@@ -35,7 +35,8 @@ class Analysis:
     first of equal neighbours), whatever ω is; `peak_strain` (peaks, T') is the normalised strain there, on the
     triangles themselves or, above the memory budget, on area-weighted patches. `strain_scale` is the strain
     that counts as 1. `peak_triangles` are the animation's triangles that the columns of `peak_strain` are of,
-    none where they are patches or pairs of points. `heavy` are the parameters it was made with.
+    none where they are patches or pairs of points. `heavy` are the parameters it was made with. `threads` may be used
+    to cut it: of this process, and not stored.
     """
 
     frames: int
@@ -49,6 +50,7 @@ class Analysis:
     strain_scale: float
     notices: tuple[Notice, ...] = ()
     peak_triangles: Int[np.ndarray, "columns"] = field(default_factory=lambda: np.zeros(0, np.int64))
+    threads: int = field(default=1, repr=False, compare=False)
     _derived_values: dict[Any, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def to_bytes(self) -> bytes:

@@ -88,6 +88,7 @@ def analyse(
                 with_pairs=body.with_pairs,
             ),
             strain_scale=scale,
+            threads=threads,
             notices=animation.notices + notices + _notices(animation, take, length, parameters.descriptor),
         )
 

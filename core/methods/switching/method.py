@@ -15,6 +15,9 @@ from caesura.core.segmentation import Cut
 from caesura.core.segmentation_document import Notice, Score
 from caesura.core.single_threaded_blas import single_threaded_blas
 
+LONG = 3000
+"""Frames from which on threads gain more than it takes to start them."""
+
 
 def switching(analysis: Analysis, parameters: Parameters) -> Cut:
     """Cut a take where its motion changes, and say which motions are the same. Nothing changes: one segment."""
@@ -53,7 +56,7 @@ def switching(analysis: Analysis, parameters: Parameters) -> Cut:
 def _labellings(analysis: Analysis) -> Labellings:
     frames = Frames.of(analysis)
     refinement = Refinement.of(frames.values, frames.frame_rate)
-    return Labellings(Views(frames), refinement)
+    return Labellings(Views(frames), refinement, analysis.threads if frames.count >= LONG else 1)
 
 
 def _fewer_motions_notice(asked: Auto | int, found: int) -> tuple[Notice, ...]:

@@ -3,11 +3,13 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import product
 
 import numpy as np
 from jaxtyping import Int
 
 from caesura.core.agreement import adjusted_rand_index
+from caesura.core.frames.blocks import map_blocks
 from caesura.core.methods.switching.neighbour_graph import NeighbourGraph
 from caesura.core.methods.switching.refinement import Refinement
 from caesura.core.methods.switching.subdivision import subdivide_motions
@@ -70,13 +72,20 @@ class Labellings:
 
     views: Views
     refinement: Refinement
+    threads: int = 1
     _known: dict[tuple[View, int], Labelling] = field(default_factory=dict)
     _divided: dict[bytes, tuple[Labelling, ...]] = field(default_factory=dict)
 
     @cached_property
     def graph(self) -> NeighbourGraph:
         """What judges them."""
-        return NeighbourGraph.of(self.refinement.poses, self.refinement.frame_rate)
+        return NeighbourGraph.of(self.refinement.poses, self.refinement.frame_rate, self.threads)
+
+    def prepare(self, asked: Iterable[tuple[View, int]]) -> None:
+        """Work out several labellings side by side."""
+        missing = [one for one in asked if one not in self._known]
+        for _ in map_blocks(lambda one: self.labelling(*one), missing, min(self.threads, len(missing))):
+            pass
 
     def labelling(self, view: View, motions: int) -> Labelling:
         """The take cut into so many motions in one view, or fewer: transitions are none."""
@@ -90,10 +99,10 @@ class Labellings:
         """The labelling with one of its motions cut into two, each in turn, where that leaves more motions."""
         key = whole.labels.tobytes()
         if key not in self._divided:
-            judged = (
-                self._judged(view, labels, whole.cost, whole.subdivided + 1)
-                for view, labels in subdivide_motions(whole.labels, self.views)
-                if self.graph.cut(labels) - whole.cut < BEFORE_REFINEMENT
+            divided = subdivide_motions(whole.labels, self.views, self.threads)
+            promising = [one for one in divided if self.graph.cut(one[1]) - whole.cut < BEFORE_REFINEMENT]
+            judged = map_blocks(
+                lambda one: self._judged(*one, whole.cost, whole.subdivided + 1), promising, self.threads
             )
             self._divided[key] = tuple(
                 found for found in judged if found.motions > whole.motions and found.segments > whole.segments
@@ -161,14 +170,20 @@ class MotionCountSearch:
         One view tells about how many there are, and all of them which.
         """
         lead = self.views[:1]
+        enough = 1 + PATIENCE
         for motions in range(1, MOST + 1):
+            ahead = range(motions, max(enough, motions + self.labellings.threads - 1) + 1)
+            self.labellings.prepare(product(lead, ahead))
             self.ask(lead, motions)
-            if motions >= _worthiest(self.best()).motions + PATIENCE:
+            enough = _worthiest(self.best()).motions + PATIENCE
+            if motions >= enough:
                 break
         tried = 0
         while (now := _worthiest(self.best()).motions) != tried:
             tried = now
-            for motions in range(max(now - AROUND, 1), now + BEYOND + 1):
+            around = range(max(now - AROUND, 1), now + BEYOND + 1)
+            self.labellings.prepare(product(self.views, around))
+            for motions in around:
                 self.ask(self.views, motions)
             self.subdivide((now,))
         return self._agreed(_worthiest(self.best()).motions)

@@ -12,6 +12,7 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy import sparse
 
+from caesura.core.frames.blocks import Block, map_blocks, split_into_blocks
 from caesura.core.kernels import switching
 
 SAMPLES_PER_SECOND = 10.0
@@ -34,7 +35,7 @@ class NeighbourGraph:
     at: Int[np.ndarray, "moments"]
 
     @classmethod
-    def of(cls, poses: Float[np.ndarray, "frames D"], frame_rate: float) -> "NeighbourGraph":
+    def of(cls, poses: Float[np.ndarray, "frames D"], frame_rate: float, threads: int = 1) -> "NeighbourGraph":
         """Of poses, at most `MOST_SAMPLES` moments: time and memory grow with the frames no more than to read them.
 
         A link to one of the 10 most like moments weighs exp(−d² / σσ'), σ being each moment's distance to its fifth
@@ -45,7 +46,7 @@ class NeighbourGraph:
         delay = round(DELAY_SECONDS * frame_rate)
         moments = np.concatenate([poses[np.clip(at + by, 0, len(poses) - 1)] for by in (-delay, 0, delay)], axis=1)
         per_second = frame_rate / stride
-        alike = _alike(moments, max(round(APART_SECONDS * per_second), 1))
+        alike = _alike(moments, max(round(APART_SECONDS * per_second), 1), threads)
         following = _following(len(at), max(round(FOLLOWING_SECONDS * per_second), 1))
         scale = alike.sum() / following.sum() if len(at) > 1 and alike.sum() > 0 else 1.0
         return cls((alike + following * scale).tocsr(), at)
@@ -62,7 +63,7 @@ class NeighbourGraph:
 _TINY = float(np.finfo(np.float64).tiny)
 
 
-def _alike(moments: Float[np.ndarray, "moments D"], apart: int) -> sparse.csr_matrix:
+def _alike(moments: Float[np.ndarray, "moments D"], apart: int, threads: int) -> sparse.csr_matrix:
     """Links to the most like moments that are farther than `apart` in time; none where there are too few."""
     count = len(moments)
     near = min(NEIGHBOURS, count - 2 * apart - 1)
@@ -72,13 +73,18 @@ def _alike(moments: Float[np.ndarray, "moments D"], apart: int) -> sparse.csr_ma
     nearest = np.empty((count, near), np.int64)
     square = np.empty((count, near))
     index = np.arange(count)
-    for start in range(0, count, BLOCK):
-        rows = index[start : start + BLOCK]
+
+    def find_nearest(block: Block) -> None:
+        rows = index[slice(*block)]
         apart_squares = squares[rows, None] + squares - 2 * moments[rows] @ moments.T
-        apart_squares[np.abs(rows[:, None] - index) <= apart] = np.inf
+        for row, of_row in zip(rows.tolist(), apart_squares, strict=True):
+            of_row[max(row - apart, 0) : row + apart + 1] = np.inf
         chosen = np.argpartition(apart_squares, near - 1, axis=1)[:, :near]
         nearest[rows] = chosen
         square[rows] = np.maximum(np.take_along_axis(apart_squares, chosen, 1), 0.0)
+
+    for _ in map_blocks(find_nearest, split_into_blocks(count, BLOCK), threads):
+        pass
     scale = np.sqrt(np.partition(square, near // 2, axis=1)[:, near // 2])
     rounding = 1e-12 * float(squares.mean()) + _TINY
     weight = np.exp(-square / (scale[:, None] * scale[nearest] + rounding))

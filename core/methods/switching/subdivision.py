@@ -9,6 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 from jaxtyping import Int
 
+from caesura.core.frames.blocks import map_blocks
 from caesura.core.methods.switching.views import BOTH, View, Views
 
 LEAST_WINDOWS = 2
@@ -16,18 +17,35 @@ LEAST_WINDOWS = 2
 
 
 def subdivide_motions(
-    labels: Int[np.ndarray, "frames"], views: Views
+    labels: Int[np.ndarray, "frames"], views: Views, threads: int = 1
 ) -> Iterator[tuple[View, Int[np.ndarray, "frames"]]]:
     """For every view that weighs the descriptors alike and every motion: the labels with that motion cut into two."""
+    tasks = [
+        (view, of_step, motion)
+        for view, of_step in _labels_in_views(labels, views)
+        for motion in np.unique(of_step).tolist()
+    ]
+    yield from (found for found in map_blocks(lambda task: _divide(views, *task), tasks, threads) if found is not None)
+
+
+def _labels_in_views(
+    labels: Int[np.ndarray, "frames"], views: Views
+) -> Iterator[tuple[View, Int[np.ndarray, "steps"]]]:
     for view in (view for view in views.names if view.weights == BOTH):
         signal = views.by(view).signal
-        count = len(signal.values)
-        of_step = labels[np.minimum(np.arange(count) * signal.stride + signal.stride // 2, len(labels) - 1)]
-        for motion in np.unique(of_step).tolist():
-            steps = np.flatnonzero(of_step == motion)
-            alone = views.within(view, steps) if len(steps) >= LEAST_WINDOWS * signal.window else None
-            halves = alone.settled(2) if alone is not None else None
-            if halves is not None and halves.motions == 2:
-                divided = of_step.copy()
-                divided[steps[halves.labels == 1]] = of_step.max() + 1
-                yield view, signal.per_frame(divided)
+        middles = np.arange(len(signal.values)) * signal.stride + signal.stride // 2
+        yield view, labels[np.minimum(middles, len(labels) - 1)]
+
+
+def _divide(
+    views: Views, view: View, of_step: Int[np.ndarray, "steps"], motion: int
+) -> tuple[View, Int[np.ndarray, "frames"]] | None:
+    """The labels with one motion cut into two; None where it is short, or where all of it is alike."""
+    signal, steps = views.by(view).signal, np.flatnonzero(of_step == motion)
+    alone = views.within(view, steps) if len(steps) >= LEAST_WINDOWS * signal.window else None
+    halves = alone.settled(2) if alone is not None else None
+    if halves is None or halves.motions != 2:
+        return None
+    divided = of_step.copy()
+    divided[steps[halves.labels == 1]] = of_step.max() + 1
+    return view, signal.per_frame(divided)
