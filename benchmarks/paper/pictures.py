@@ -45,4 +45,4 @@ def opposite_strains() -> tuple[Float[np.ndarray, "frames"], Float[np.ndarray, "
     rising, falling = 0.35 + 0.2 * share + apart, 0.55 - 0.2 * share + apart
     strains = np.concatenate([rising, falling], axis=1)
     bins = np.clip(np.ceil(strains * LEVELS - 1e-9).astype(int) - 1, 0, LEVELS - 1).astype(np.uint8)
-    return compute_energy_curve([bins], FRAMES, WINDOW, LEVELS), strains.sum(axis=1)
+    return compute_energy_curve([np.ascontiguousarray(bins.T)], FRAMES, WINDOW, LEVELS), strains.sum(axis=1)

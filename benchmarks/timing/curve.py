@@ -70,13 +70,13 @@ class Curve:
         drawn = [self.animation.vertices(*block) for block in blocks]
         histogram, noise, floor = np.zeros(CODES, np.int64), take.block_pass.noise, take.block_pass.floor
         columns, tile = max(((c, t.copy()) for c, t in surface.tiles(drawn[0])), key=lambda pair: pair[1].size)
-        codes, means = np.empty((tile.shape[1], surface.columns), np.uint16), body.patches.empty(len(drawn[0]))
+        codes, means = np.empty(tile.shape, np.uint16), body.patches.empty(len(drawn[0]))
         times = range(self.animation.frames * surface.columns // tile.size)
 
         def code_and_count() -> None:
             for _ in times:
                 take.block_pass.quantisation.count(tile, noise[columns], floor, histogram)
-                take.block_pass.quantisation.write(tile, codes, columns.start)
+                take.block_pass.quantisation.write(tile, codes)
 
         def look_up_bins() -> None:
             for _ in take.bins(scale, LEVELS):

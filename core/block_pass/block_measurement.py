@@ -54,7 +54,7 @@ class BlockPass:
             most, more = self.quantisation.count(tile, self.noise[columns], self.floor, histogram)
             largest, above = max(largest, most), above + more
             if codes is not None:
-                self.quantisation.write(tile, codes, columns.start)
+                self.quantisation.write(tile, codes[columns])
         with self.lock:
             np.add(self.histogram, histogram, out=self.histogram)
         others, others_above = self._measure_others(vertices)
@@ -78,17 +78,17 @@ class BlockPass:
             above.append(count)
         return described, tuple(above)
 
-    def codes(self, block: Block) -> UInt16[np.ndarray, "frames columns"]:
+    def codes(self, block: Block) -> UInt16[np.ndarray, "columns frames"]:
         """The codes of the block: as kept, or from the vertices, drawn again."""
         codes = self._kept(block)
         if codes is None:
-            codes = np.empty((block[1] - block[0], self.body.surface.columns), np.uint16)
+            codes = np.empty((self.body.surface.columns, block[1] - block[0]), np.uint16)
             vertices = read_vertices(self.animation, block)
             for columns, tile in self.body.surface.tiles(vertices):
-                self.quantisation.write(tile, codes, columns.start)
+                self.quantisation.write(tile, codes[columns])
         return codes
 
-    def _kept(self, block: Block) -> UInt16[np.ndarray, "frames columns"] | None:
+    def _kept(self, block: Block) -> UInt16[np.ndarray, "columns frames"] | None:
         """Where the codes of the block are kept: those of the first frames are, as many as there is memory for.
 
         One piece of memory holds all: many would be cleared singly.
@@ -96,4 +96,4 @@ class BlockPass:
         columns = self.body.surface.columns
         if block[1] * columns > len(self.kept):
             return None
-        return self.kept[block[0] * columns : block[1] * columns].reshape(block[1] - block[0], columns)
+        return self.kept[block[0] * columns : block[1] * columns].reshape(columns, block[1] - block[0])

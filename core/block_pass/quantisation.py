@@ -50,11 +50,9 @@ class Quantisation:
         largest, above = counting.count_codes(bits, noise.view(np.int32), self.lowest, np.int32(floor), histogram)
         return float(np.int32(largest).view(np.float32)), int(above)
 
-    def write(
-        self, values: Float32[np.ndarray, "columns frames"], codes: UInt16[np.ndarray, "frames _"], at: int
-    ) -> None:
-        """Write the codes of values ≥ 0 as columns `at` and on of `codes`."""
-        counting.write_codes(np.ascontiguousarray(values).view(np.int32), self.lowest, codes, at)
+    def write(self, values: Float32[np.ndarray, "columns frames"], codes: UInt16[np.ndarray, "columns frames"]) -> None:
+        """Write the codes of values ≥ 0."""
+        counting.write_codes(np.ascontiguousarray(values).view(np.int32), self.lowest, codes)
 
     @property
     def lowest(self) -> np.int32:

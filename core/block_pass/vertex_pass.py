@@ -71,7 +71,7 @@ class PassResult:
 
     def bins(
         self, scale: float, levels: int, progress: Progress = ignore_progress
-    ) -> Iterator[UInt8[np.ndarray, "frames columns"]]:
+    ) -> Iterator[UInt8[np.ndarray, "columns frames"]]:
         """The bin of every strain where so many of them part `scale`, in blocks of frames.
 
         φ1 = [0, 1/B], φi = ((i−1)/B, i/B]; what is above `scale` is in the last. From the codes where they were
@@ -94,7 +94,7 @@ class PassResult:
         shares = self.block_pass.quantisation.shares(scale)
 
         def strains(block: Block) -> np.ndarray:
-            return np.asarray(shares[self.block_pass.codes(block)])
+            return np.asarray(shares[self.block_pass.codes(block).T])
 
         return map_blocks(strains, self.blocks, self.threads, progress=progress, stage="energy", total=len(self.blocks))
 

@@ -14,43 +14,45 @@ from jaxtyping import Float, Int, Int32, UInt8
 
 from caesura.core.kernels import counting
 
-Bins = UInt8[np.ndarray, "_ columns"]
+Bins = UInt8[np.ndarray, "columns _"]
 """The bin of each triangle's strain in the frames of a block."""
 
 
 @dataclass(frozen=True)
 class FramePairing:
-    """The bins of some frames, and those of the frames l later, in the pieces at hand; of so many levels."""
+    """The bins of some frames, and those of the frames l later, in the pieces at hand; of so many levels.
 
-    pieces: tuple[tuple[Bins, Bins], ...]
+    A piece is the block of the one and its first frame, that of the others and theirs, and how many frames it has.
+    """
+
+    pieces: tuple[tuple[Bins, int, Bins, int, int], ...]
     levels: int
 
     def counts(self) -> Int32[np.ndarray, "pairs levels2"]:
         """C_n of every pair in turn, each row a matrix of levels x levels (Eq. 1, times the number of triangles)."""
         counted = []
-        for frames, later in self.pieces:
-            counts = np.empty((len(frames), self.levels**2), np.int32)
-            counting.count_pairs(frames, later, self.levels, counts)
+        for first, start, second, later, frames in self.pieces:
+            counts = np.empty((frames, self.levels**2), np.int32)
+            counting.count_pairs(first, start, second, later, self.levels, counts)
             counted.append(counts)
         return np.concatenate(counted)
 
 
 def plan_frame_pairings(blocks: Iterable[Bins], lag: int, levels: int) -> Iterator[FramePairing]:
     """Join every frame with the one `lag` frames later, as the blocks come; holds the last `lag` frames."""
-    held: deque[np.ndarray] = deque()
+    held: deque[tuple[np.ndarray, int]] = deque()
     behind = 0  # frames that were read and have not met their partner
     for block in blocks:
-        held.append(block)
-        behind += len(block)
+        held.append((block, 0))
+        behind += block.shape[1]
         pieces = []
         while behind > lag:
-            first = held.popleft()
-            at = len(block) - (behind - lag)
-            width = min(len(first), behind - lag)
-            pieces.append((first[:width], block[at : at + width]))
+            first, start = held.popleft()
+            width = min(first.shape[1] - start, behind - lag)
+            pieces.append((first, start, block, block.shape[1] - (behind - lag), width))
             behind -= width
-            if width < len(first):
-                held.appendleft(first[width:])
+            if start + width < first.shape[1]:
+                held.appendleft((first, start + width))
         if pieces:
             yield FramePairing(tuple(pieces), levels)
 

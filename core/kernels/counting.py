@@ -14,9 +14,6 @@ Sums = NDArray[np.int64]
 SHIFT = 11
 """Bits of a float32 that a code leaves out: 12 of the 23 of its mantissa stay."""
 
-TOGETHER = 16
-"""Triangles whose codes are written together: half a line of the cache."""
-
 
 @njit(nogil=True, cache=True, inline="always")
 def quantise(bits: np.int32, lowest: np.int32) -> np.uint16:
@@ -50,44 +47,33 @@ def count_codes(
 
 
 @njit(nogil=True, cache=True)
-def write_codes(tile: Bits, lowest: np.int32, codes: Codes, column: int) -> None:
-    """codes[f, column + t] = code of tile[t, f]; as many triangles at a time as share a line of the cache."""
-    together = tile.shape[0] // TOGETHER * TOGETHER
-    few = np.empty((TOGETHER, tile.shape[1]), np.uint16)
-    for start in range(0, together, TOGETHER):
-        for t in range(TOGETHER):
-            for f in range(tile.shape[1]):
-                few[t, f] = quantise(tile[start + t, f], lowest)
+def write_codes(tile: Bits, lowest: np.int32, codes: Codes) -> None:
+    """codes[t, f] = code of tile[t, f]."""
+    for t in range(tile.shape[0]):
         for f in range(tile.shape[1]):
-            for t in range(TOGETHER):  # a constant, so that the loop is unrolled
-                codes[f, np.uint64(column + start + t)] = few[t, f]
-    for t in range(together, tile.shape[0]):
-        for f in range(tile.shape[1]):
-            codes[f, column + t] = quantise(tile[t, f], lowest)
+            codes[t, f] = quantise(tile[t, f], lowest)
 
 
 @njit(nogil=True, cache=True)
 def look_up_bins(codes: Codes, bin_of_code: Bins, bins: Bins) -> None:
-    """bins[f, t] = bin_of_code[codes[f, t]]."""
-    for f in range(codes.shape[0]):
-        for t in range(codes.shape[1]):
-            bins[f, t] = bin_of_code[codes[f, t]]
+    """bins[t, f] = bin_of_code[codes[t, f]]."""
+    for t in range(codes.shape[0]):
+        for f in range(codes.shape[1]):
+            bins[t, f] = bin_of_code[codes[t, f]]
 
 
 @njit(nogil=True, cache=True)
-def count_pairs(first: Bins, second: Bins, levels: int, counts: Bits) -> None:
-    """counts[f, i B + j] = how many columns are in bin i of frame f of `first` and in bin j of that of `second`.
+def count_pairs(first: Bins, start: int, second: Bins, later: int, levels: int, counts: Bits) -> None:
+    """counts[f, i B + j] = how many columns are in bin i of frame start + f of `first` and j of later + f of `second`.
 
-    Neighbouring columns count in different tables: they are often in the same bins, and would wait for each other.
+    Frame after frame counts in a table of its own: a column is often in the bins of the one before it, and would wait
+    for its count.
     """
-    tables = np.zeros((4, counts.shape[1]), np.int32)
-    for f in range(counts.shape[0]):
-        one, other = first[f], second[f]
-        tables[:] = 0
-        for t in range(one.size):
-            tables[np.uint64(t) & np.uint64(3), np.uint64(one[t]) * np.uint64(levels) + np.uint64(other[t])] += 1
-        for c in range(counts.shape[1]):
-            counts[f, c] = tables[0, c] + tables[1, c] + tables[2, c] + tables[3, c]
+    counts[:] = 0
+    for t in range(first.shape[0]):
+        one, other = first[t][start:], second[t][later:]
+        for f in range(counts.shape[0]):
+            counts[f, np.uint64(one[f]) * np.uint64(levels) + np.uint64(other[f])] += 1
 
 
 @njit(nogil=True, cache=True)

@@ -66,16 +66,16 @@ def test_edges_of_bins_are_in_their_place_to_an_eight_thousandth(levels):
 
 @pytest.mark.parametrize("order", ["C", "F"])
 @pytest.mark.parametrize("shape", [(1, 1), (16, 8), (13, 64), (64, 5), (30, 27)])
-def test_codes_kept_in_rows_of_triangles_are_the_same_codes(shape, order):
-    """Wherever they begin in a row, however values lie and how many they are; nothing beside them is touched."""
+def test_codes_kept_of_a_block_are_the_same_codes(shape, order):
+    """Wherever its rows begin, however values lie and how many they are; nothing beside them is touched."""
     coding, at = Quantisation(1.0), 3
     values = np.random.default_rng(0).gamma(1.0, 2.0, shape).astype(np.float32, order=order)
     values[0, 0] = 0
-    found = np.full((shape[1], at + shape[0] + 2), 7, np.uint16)
-    coding.write(values, found, at)
-    np.testing.assert_array_equal(found[:, at:-2], coding.encode(values).T)
-    assert (found[:, :at] == 7).all()
-    assert (found[:, -2:] == 7).all()
+    found = np.full((at + shape[0] + 2, shape[1]), 7, np.uint16)
+    coding.write(values, found[at:-2])
+    np.testing.assert_array_equal(found[at:-2], coding.encode(values))
+    assert (found[:at] == 7).all()
+    assert (found[-2:] == 7).all()
 
 
 def test_codes_from_a_floor_on_are_counted_one_by_one_and_all_below_together():

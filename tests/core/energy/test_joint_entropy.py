@@ -9,11 +9,11 @@ from tests import oracles
 
 
 def blocks(bins, sizes):
-    """(columns, frames) as rows of frames, cut into blocks of these sizes in turn, to the end."""
-    values, start, cut = np.ascontiguousarray(bins.T), 0, []
-    while start < len(values):
+    """(columns, frames) cut into blocks of these sizes in turn, to the end."""
+    start, cut = 0, []
+    while start < bins.shape[1]:
         size = sizes[len(cut) % len(sizes)]
-        cut.append(values[start : start + size])
+        cut.append(np.ascontiguousarray(bins[:, start : start + size]))
         start += size
     return cut
 
@@ -31,7 +31,7 @@ def test_the_curve_is_the_double_loops(window, sizes):
 
 def test_the_curve_is_nan_where_the_windows_do_not_fit():
     """Defined for l − 1 ≤ m ≤ M − l − 1 alone, and nowhere when two windows are longer than the take."""
-    still = np.zeros((20, 3), np.uint8)
+    still = np.zeros((3, 20), np.uint8)
     assert np.flatnonzero(~np.isnan(compute_energy_curve([still], 20, 6, 2))).tolist() == list(range(5, 14))
     assert np.isnan(compute_energy_curve([still], 20, 11, 2)).all()
 
