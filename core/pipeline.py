@@ -37,8 +37,11 @@ def analyse(
     threads: int = 1,
     progress: Progress = ignore_progress,
     memory_bytes: int = CODES_BYTES,
+    peak_strain: bool = True,
 ) -> Analysis:
     """Everything that needs the vertices. Memory does not grow with the frames, but for the results themselves.
+
+    Without `peak_strain` its columns are left out, and only methods that do not read it can cut the analysis.
 
     Raises `InvalidModel`: `no-motion` below two frames, `degenerate-mesh` where no triangle has area at rest,
     `non-finite-data` naming frame and vertex. The same bytes for any number of threads.
@@ -70,7 +73,9 @@ def analyse(
             bins = take.bins(scale, parameters.bins, progress)
             energy = compute_energy_curve(bins, animation.frames, length, parameters.bins, take.threads)
         peaks = find_local_maxima(energy)
-        peak_strain = measure_strain_at_peaks(animation, body, peaks, scale, threads, progress)
+        strain_at_peaks = np.zeros((len(peaks), 0), np.float32)
+        if peak_strain:
+            strain_at_peaks = measure_strain_at_peaks(animation, body, peaks, scale, threads, progress)
         return Analysis(
             frames=animation.frames,
             frame_rate=animation.frame_rate,
@@ -78,8 +83,8 @@ def analyse(
             heavy=parameters.heavy(),
             energy=energy,
             peaks=peaks,
-            peak_strain=peak_strain,
-            peak_triangles=body.triangles if peak_strain.shape[1] == len(body.triangles) else body.triangles[:0],
+            peak_strain=strain_at_peaks,
+            peak_triangles=body.triangles if strain_at_peaks.shape[1] == len(body.triangles) else body.triangles[:0],
             features=extract_features(
                 take.block_pass.projections,
                 take.features,
@@ -103,7 +108,14 @@ def segment(
 ) -> Segmentation:
     """The motions of an animation: `analyse`, then `cut`."""
     parameters = parameters or Parameters()
-    analysis = analyse(animation, parameters, threads=threads, progress=progress, memory_bytes=memory_bytes)
+    analysis = analyse(
+        animation,
+        parameters,
+        threads=threads,
+        progress=progress,
+        memory_bytes=memory_bytes,
+        peak_strain=METHODS[parameters.method].reads_peak_strain,
+    )
     progress("cut", 0.0)
     return cut(analysis, parameters)
 

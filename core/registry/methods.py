@@ -23,6 +23,8 @@ class Method:
     description: str
     needs_motions: bool = False
     """Whether it must be given K: such a method has no way of its own to choose it."""
+    reads_peak_strain: bool = True
+    """Whether it looks at the strain at the peaks of the energy curve, which takes time to measure."""
 
     def load(self) -> "Callable[[Analysis, Parameters], Cut]":
         """The function, imported at its first use: most methods need scikit-learn, and the default does not."""
@@ -38,6 +40,7 @@ METHODS = {
             "switching",
             "switching.method:switching",
             "The default: what every frame does is explained by one of K motions, and changing motion costs.",
+            reads_peak_strain=False,
         ),
         Method(
             "joint-entropy",

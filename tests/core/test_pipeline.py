@@ -313,3 +313,11 @@ def test_progress_tells_every_stage(performance):
 
     with pytest.raises(TimeoutError, match="rest shape"):
         analyse(performance.animation, PAPER, threads=2, progress=cancel)
+
+
+@pytest.mark.parametrize("method", ["switching", "joint-entropy"])
+def test_a_take_is_cut_as_its_whole_analysis_is(method) -> None:
+    """Though the strain at the peaks is measured only for methods that look at it."""
+    source = performing_bar([0, 2, 0], seconds=2.0, rings=10).animation
+    parameters = Parameters(method=method, motions=2)
+    assert segment(source, parameters).to_json() == cut(analyse(source, parameters), parameters).to_json()
