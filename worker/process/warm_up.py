@@ -57,12 +57,14 @@ def rehearse_cuts() -> None:
 
 
 def example_gltf() -> bytes:
-    """A triangle that turns, moves and has a morph target."""
+    """A triangle that turns, moves and has a morph target, and one that has none."""
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
     times = np.array([0, 1], np.float32)
     turns = np.array([[0, 0, 0, 1], [0, 0, 1, 0]], np.float32)
     writer = GlbWriter()
-    mesh = writer.mesh("triangle", [Primitive(corners, np.array([[0, 1, 2]]), targets=[corners])], weights=[0.5])
+    triangle = np.array([[0, 1, 2]])
+    writer.node("plain", mesh=writer.mesh("plain", [Primitive(corners, triangle)]))
+    mesh = writer.mesh("triangle", [Primitive(corners, triangle, targets=[corners])], weights=[0.5])
     node = writer.node("triangle", mesh=mesh)
     writer.animation(
         "turn", [Channel(node, "rotation", times, turns), Channel(node, "translation", times, corners[:2])]
