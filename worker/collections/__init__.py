@@ -2,7 +2,7 @@
 
 common_motions   motions that are added to a collection, their names and colours; light
 corrected_takes  segments as people set them, which the program leaves; light
-pose_space_file  the pose space of a collection, as a blob
+stored_space     the pose space of a collection, as a blob
 take_files       what a take is compared by: measured once, and read again
 joint_cut        all takes cut together
 take_labelling   takes that wait, labelled by the motions that are known

@@ -2,7 +2,7 @@
 
 from caesura.core.errors import InvalidModel
 from caesura.core.together.example_search import ExampleIndex, IndexedTake, cut_example, index_take
-from caesura.worker.collections.pose_space_file import StoredSpace
+from caesura.worker.collections.stored_space import StoredSpace
 from caesura.worker.collections.take_files import measure, read_searched
 from caesura.worker.process.job_quota import JobQuota
 from caesura.worker.process.thread_count import available_threads

@@ -13,7 +13,7 @@ from caesura.core.together.measured_take import MeasuredTake
 from caesura.core.together.motion_collection import MOST_COMPARED, MotionCollection
 from caesura.core.together.segment_together import segment_together
 from caesura.worker.collections.corrected_takes import segment_at
-from caesura.worker.collections.pose_space_file import StoredSpace
+from caesura.worker.collections.stored_space import StoredSpace
 from caesura.worker.records.collection_types import CollectedSegment, TakeRecord
 
 

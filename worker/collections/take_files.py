@@ -12,7 +12,7 @@ from caesura.core.together.measured_take import MeasuredTake, measure_take
 from caesura.core.together.motion_signature import MotionSignatures
 from caesura.core.together.take_segments import sign_take
 from caesura.formats.read import read_animation
-from caesura.worker.collections.pose_space_file import StoredSpace
+from caesura.worker.collections.stored_space import StoredSpace
 from caesura.worker.process.job_quota import JobQuota
 from caesura.worker.process.worker_context import WorkerContext
 from caesura.worker.records.collection_types import TakeNumbers, TakeRecord

@@ -19,7 +19,7 @@ from caesura.core.together.take_labelling import MOST_EXEMPLARS, label_take
 from caesura.core.together.take_segments import sign_take
 from caesura.worker.collections.common_motions import add_motions, new_motion_id, new_motions
 from caesura.worker.collections.joint_cut import collected_segments, cut_together
-from caesura.worker.collections.pose_space_file import StoredSpace
+from caesura.worker.collections.stored_space import StoredSpace
 from caesura.worker.collections.take_files import as_labelled, measure, put_index, read_measured, read_signatures
 from caesura.worker.process.job_quota import JobQuota
 from caesura.worker.process.worker_context import WorkerContext
