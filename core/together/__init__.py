@@ -4,6 +4,7 @@ body_poses         where the same points of a body are, in every take
 compared_body      the points that takes have in common, or what differs
 mirror_symmetry    left and right of a body
 pose_space         poses of all takes as the same few numbers
+pose_space_file    a pose space as plain arrays
 motion_signature   what a stretch of motion is like, however fast and from which phase on
 measured_take      a take as it is compared: its poses and its own segments
 motion_collection  the motions of several takes, frozen

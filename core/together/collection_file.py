@@ -6,18 +6,14 @@ from dataclasses import asdict
 
 import numpy as np
 
-from caesura.core.together.compared_body import ComparedBody
 from caesura.core.together.motion_collection import CollectedSegment, CollectedTake, MotionCollection
 from caesura.core.together.motion_signature import MotionSignatures
-from caesura.core.together.pose_space import PoseSpace
+from caesura.core.together.pose_space_file import space_from_arrays, space_to_arrays
 
 
 def collection_to_bytes(collection: MotionCollection) -> bytes:
     """About 5 kB a segment, and the poses of no take."""
-    space = collection.space
     meta = {
-        "body": asdict(space.body),
-        "mirrors": space.mirrors,
         "takes": [asdict(take) for take in collection.takes],
         "segments": [asdict(segment) for segment in collection.segments],
         "names": list(collection.names),
@@ -28,9 +24,7 @@ def collection_to_bytes(collection: MotionCollection) -> bytes:
     np.savez(
         out,
         meta=np.frombuffer(json.dumps(meta).encode(), np.uint8),
-        reference=space.reference,
-        directions=space.directions,
-        signs=space.signs,
+        **space_to_arrays(collection.space),
         spreads=collection.spreads,
         means=collection.signatures.means,
         poses=collection.signatures.poses,
@@ -43,9 +37,8 @@ def collection_from_bytes(data: bytes) -> MotionCollection:
     """The collection that `collection_to_bytes` wrote."""
     with np.load(io.BytesIO(data), allow_pickle=False) as stored:
         meta = json.loads(stored["meta"].tobytes())
-        body = ComparedBody(meta["body"]["kind"], tuple(meta["body"]["names"]), meta["body"]["topology"])
         return MotionCollection(
-            space=PoseSpace(body, stored["reference"], stored["directions"], stored["signs"], meta["mirrors"]),
+            space=space_from_arrays(stored),
             takes=tuple(CollectedTake(**take) for take in meta["takes"]),
             segments=tuple(
                 CollectedSegment(**{**segment, "refused": tuple(segment["refused"])}) for segment in meta["segments"]
