@@ -5,6 +5,7 @@ import time
 from caesura.service.backend import Backend
 from caesura.service.problems.problem_response import RequestProblem
 from caesura.worker.collections.common_motions import add_motions
+from caesura.worker.collections.corrected_takes import with_segments
 from caesura.worker.queue.collection_jobs import submit_proposal
 from caesura.worker.records import content_ids
 from caesura.worker.records.collection_types import CollectionRecord, ProposalRecord
@@ -48,7 +49,7 @@ def _apply(backend: Backend, identifier: str, proposal: ProposalRecord) -> None:
     def change(record: CollectionRecord) -> CollectionChange:
         present = {take.animation: take for take in collections.takes(identifier, wanted)}
         put = tuple(
-            take.model_copy(update={"segments": wanted[animation].segments, "version": take.version + 1})
+            with_segments(take, wanted[animation].segments)
             for animation, take in present.items()
             if take.version == wanted[animation].version
         )

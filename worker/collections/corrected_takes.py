@@ -26,8 +26,16 @@ def correct_take(take: TakeRecord, wanted: Sequence[Range]) -> TakeRecord:
         raise ParameterError("invalid-segments", detail, pointer="/segments")
     before = {(one.start, one.end, one.motion): one for one in take.segments}
     segments = tuple(before.get(one) or _corrected(take, one) for one in wanted)
-    numbers = take.numbers and take.numbers.model_copy(update={"signatures": None})  # of segments that are no more
-    return take.model_copy(update={"segments": segments, "version": take.version + 1, "numbers": numbers})
+    return with_segments(take, segments)
+
+
+def with_segments(take: TakeRecord, segments: Sequence[CollectedSegment]) -> TakeRecord:
+    """The take in its next version, with these segments; signatures of ranges that are no more are forgotten."""
+    ranges = [[(one.start, one.end) for one in kept] for kept in (take.segments, segments)]
+    numbers = take.numbers
+    if numbers is not None and ranges[0] != ranges[1]:
+        numbers = numbers.model_copy(update={"signatures": None})
+    return take.model_copy(update={"segments": tuple(segments), "version": take.version + 1, "numbers": numbers})
 
 
 def lay_around_corrections(take: TakeRecord, found: Sequence[CollectedSegment]) -> tuple[CollectedSegment, ...]:
