@@ -1,5 +1,7 @@
 """Proposals of a collection: what would change is shown first, and a person accepts or refuses it."""
 
+from functools import partial
+
 from anyio import to_thread
 from fastapi import APIRouter, Request, Response
 
@@ -8,12 +10,11 @@ from caesura.service.api_description.request_bodies import WAIT
 from caesura.service.auth.request_owner import Owner
 from caesura.service.backend import Backend, BackendDependency
 from caesura.service.collections.documents import ProposalDocument, ProposalEntry, ProposalList
-from caesura.service.collections.lookup import find_collection, wait_for
+from caesura.service.collections.lookup import find_collection, find_ended
 from caesura.service.collections.proposals import decide, propose_recut
 from caesura.service.collections.requests import Decision, NewProposal
 from caesura.service.problems.problem_response import RequestProblem
 from caesura.service.segmentations.document_response import document_response, preference_applied
-from caesura.worker.queue.collection_jobs import fail_if_lost
 from caesura.worker.records.async_collections import AsyncCollections
 from caesura.worker.records.collection_types import ProposalRecord
 
@@ -50,15 +51,7 @@ async def get_proposal(
     With `Prefer: wait=N` the answer comes as soon as it is worked out, and at most N seconds from now.
     """
     await find_collection(backend, identifier, owner)
-    kept = await _find(backend, identifier, proposal)
-
-    async def ready() -> bool:
-        return (await _find(backend, identifier, proposal)).status != "working"
-
-    if kept.status == "working":
-        await wait_for(backend, request, identifier, ready)
-        await to_thread.run_sync(fail_if_lost, backend.jobs, identifier, kept)
-        kept = await _find(backend, identifier, proposal)
+    kept = await find_ended(backend, request, identifier, partial(_find, backend, identifier, proposal))
     return document_response(ProposalDocument.whole(identifier, kept), 200, preference_applied(request))
 
 

@@ -1,6 +1,7 @@
 """Search by example in a collection."""
 
 import time
+from functools import partial
 
 from anyio import to_thread
 from fastapi import APIRouter, Request, Response
@@ -11,12 +12,12 @@ from caesura.service.api_description.request_bodies import WAIT
 from caesura.service.auth.request_owner import Owner
 from caesura.service.backend import Backend, BackendDependency
 from caesura.service.collections.documents import SearchDocument
-from caesura.service.collections.lookup import find_collection, wait_for
+from caesura.service.collections.lookup import find_collection, find_ended
 from caesura.service.collections.requests import NewSearch
 from caesura.service.problems.problem_response import RequestProblem
 from caesura.service.segmentations.document_response import document_response, preference_applied
 from caesura.service.segmentations.submission import submit_segmentation
-from caesura.worker.queue.collection_jobs import fail_if_lost, submit_search
+from caesura.worker.queue.collection_jobs import submit_search
 from caesura.worker.records import content_ids
 from caesura.worker.records.async_collections import AsyncCollections
 from caesura.worker.records.collection_types import SearchRecord
@@ -48,15 +49,7 @@ async def get_search(
     With `Prefer: wait=N` the answer comes as soon as it is over, and at most N seconds from now.
     """
     await find_collection(backend, identifier, owner)
-    kept = await _find(backend, identifier, search)
-
-    async def ready() -> bool:
-        return (await _find(backend, identifier, search)).status != "working"
-
-    if kept.status == "working":
-        await wait_for(backend, request, identifier, ready)
-        await to_thread.run_sync(fail_if_lost, backend.jobs, identifier, kept)
-        kept = await _find(backend, identifier, search)
+    kept = await find_ended(backend, request, identifier, partial(_find, backend, identifier, search))
     return document_response(SearchDocument.of(identifier, kept), 200, preference_applied(request))
 
 
