@@ -1,9 +1,10 @@
 """Search by example: ranges of takes that are like a range of one of them, each bent in time onto the other."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 
 import numpy as np
 from jaxtyping import Float32, Int
@@ -26,6 +27,8 @@ LEAST_SECONDS = 0.3
 """Of an example."""
 MOST_OVERLAP = 0.5
 """Of the shorter of two ranges: more, and the nearer one alone counts."""
+TAKES_AT_ONCE = 16
+"""Are searched by a thread before it asks for more: asking takes as long as a short take."""
 ENOUGH = 4
 """Times as many candidates of each take as ranges are wanted of all."""
 
@@ -100,8 +103,13 @@ class ExampleIndex:
         if self.space.mirrors:
             signs = self.space.signs.astype(np.float32)
             kinds.append(np.ascontiguousarray(asked * np.concatenate([signs, signs])))
+
+        def search(part: Sequence[IndexedTake]) -> list[Candidates]:
+            return [_candidates(take, kinds, coarse, most, self.unit) for take in part]
+
         with single_threaded_blas(), ThreadPoolExecutor(threads) as pool:
-            found = list(pool.map(lambda take: _candidates(take, kinds, coarse, most, self.unit), self.takes))
+            parts = [self.takes[at : at + TAKES_AT_ONCE] for at in range(0, len(self.takes), TAKES_AT_ONCE)]
+            found = list(chain.from_iterable(pool.map(search, parts)))
         return _best_ranges(self.takes, found, coarse, most)
 
 

@@ -7,5 +7,6 @@ take_files       what a take is compared by: measured once, and read again
 joint_cut        all takes cut together
 take_labelling   takes that wait, labelled by the motions that are known
 proposals        a new cut of all takes, or what a correction says of the others, to be looked at
+collection_index what is searched of a collection, kept by the process
 example_search   ranges of takes that are like an example
 """

@@ -13,7 +13,7 @@ from caesura.worker.collections.corrected_takes import changed_frames, lay_aroun
 from caesura.worker.collections.joint_cut import collected_segments, cut_together
 from caesura.worker.collections.stored_space import StoredSpace
 from caesura.worker.collections.take_files import read_measured
-from caesura.worker.collections.take_labelling import collection_of
+from caesura.worker.collections.take_labelling import collection_of, labelled_takes
 from caesura.worker.process.worker_context import WorkerContext
 from caesura.worker.records.collection_types import (
     CollectedSegment,
@@ -26,9 +26,7 @@ from caesura.worker.records.collection_types import (
 
 def work_out(here: WorkerContext, record: CollectionRecord, proposal: ProposalRecord) -> ProposalRecord:
     """The proposal with its changes: open, or empty where it would change nothing."""
-    collections = here.jobs.records.collections
-    labelled = [name for name, entry in collections.entries(record.id).items() if entry.status == "labelled"]
-    takes = [take for take in collections.takes(record.id, labelled) if take.numbers is not None]
+    takes = labelled_takes(here, record.id)
     work = _recut if proposal.kind == "recut" else _learned
     after, identifiers = work(here, record, proposal, takes)
     changes = [_change(take, after[take.animation]) for take in takes if take.animation in after]

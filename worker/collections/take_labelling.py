@@ -243,11 +243,16 @@ def _learn_space_anew(here: WorkerContext, identifier: str) -> None:
     record = collections.one(identifier)
     if record is None or not record.space or record.learned >= LEARNED_ENOUGH:
         return
-    labelled = [name for name, entry in collections.entries(identifier).items() if entry.status == "labelled"]
-    takes = [take for take in collections.takes(identifier, labelled) if take.numbers is not None]
+    takes = labelled_takes(here, identifier)
     if len(takes) < RELEARN * record.learned:
         return
     relearn_space(here, record, takes)
+
+
+def labelled_takes(here: WorkerContext, identifier: str) -> list[TakeRecord]:
+    """The takes of a collection that are labelled, and whose numbers are kept."""
+    takes = here.jobs.records.collections.all_takes(identifier)
+    return [take for take in takes if take.status == "labelled" and take.numbers is not None]
 
 
 def relearn_space(here: WorkerContext, record: CollectionRecord, takes: Sequence[TakeRecord]) -> None:

@@ -34,7 +34,7 @@ ANALYSE_NICE = 10
 JOBS_PER_WORK_HORSE = 200
 KEPT_BYTES = 256 * 2**20
 """A horse that has grown by more ends, so that its memory goes back."""
-KEPT_TASKS = frozenset({TASKS["analyse"], TASKS["cut"]})
+KEPT_TASKS = frozenset({TASKS["analyse"], TASKS["cut"], TASKS["search"]})
 COLLECTION_TASKS = ("collect", "propose", "search")
 
 

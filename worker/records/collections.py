@@ -67,6 +67,11 @@ class Collections:
         stored = self._redis.hmget(redis_keys.collection_takes_key(identifier), wanted) if wanted else []
         return [take for take in map(TakeRecord.read, stored) if take is not None]
 
+    def all_takes(self, identifier: str) -> list[TakeRecord]:
+        """All takes of a collection, whole."""
+        stored = self._redis.hvals(redis_keys.collection_takes_key(identifier))
+        return [take for take in map(TakeRecord.read, stored) if take is not None]
+
     def create(self, record: CollectionRecord) -> None:
         """Keep a new collection without takes."""
         with self._redis.pipeline() as pipe:

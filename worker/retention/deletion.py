@@ -66,7 +66,7 @@ def blobs_of_collection(records: Records, identifier: str) -> Iterator[str]:
     collection = records.collections.one(identifier)
     if collection is not None and collection.space:
         yield collection.space
-    yield from _blobs_of_takes(records.collections.takes(identifier, records.collections.entries(identifier)))
+    yield from _blobs_of_takes(records.collections.all_takes(identifier))
 
 
 def _blobs_of_takes(takes: Iterable[TakeRecord]) -> Iterator[str]:

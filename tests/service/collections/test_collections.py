@@ -206,6 +206,27 @@ def test_an_example_is_found_elsewhere(service, collection, animations):
     assert service.http.get(f"{here}/nothing").status_code == 404
 
 
+def test_a_search_knows_takes_that_came_and_went(service, animations):
+    """Whichever worker does it, and whatever that one has searched before."""
+    made = service.http.post("/v1/collections", json={"name": "searched", "animations": animations[:2]}).json()
+    here = f"/v1/collections/{made['id']}"
+    ready(service, made["id"])
+
+    def found_in() -> set[str]:
+        asked = {"animation": animations[0], "start": 95, "end": 175, "limit": 20}
+        begun = [service.http.post(f"{here}/searches", json=asked).headers["Location"] for _ in range(4)]
+        found = [ended(service, address)["found"] for address in begun]
+        assert all(one == found[0] for one in found)
+        return {one["animation"] for one in found[0]}
+
+    assert found_in() == set(animations[:2])
+    service.http.post(f"{here}/takes", json={"animations": animations[2:]})
+    ready(service, made["id"])
+    assert found_in() == set(animations)
+    assert service.http.delete(f"{here}/takes/{animations[1]}").status_code == 204
+    assert found_in() == {animations[0], animations[2]}
+
+
 def test_a_take_that_cannot_be_compared_is_named_and_stops_no_other(service, animations):
     """Another body, and one that cannot be read at all."""
     other = upload(service, performance((0, 1, 0, 1), 900, rings=9))
