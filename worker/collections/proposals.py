@@ -11,9 +11,10 @@ from caesura.core.together.motion_collection import MotionCollection
 from caesura.worker.collections.common_motions import new_motion_id, new_motions
 from caesura.worker.collections.corrected_takes import changed_frames, lay_around_corrections
 from caesura.worker.collections.joint_cut import collected_segments, cut_together
+from caesura.worker.collections.known_motions import collection_of
+from caesura.worker.collections.space_learning import labelled_takes
 from caesura.worker.collections.stored_space import StoredSpace
 from caesura.worker.collections.take_files import read_measured
-from caesura.worker.collections.take_labelling import collection_of, labelled_takes
 from caesura.worker.process.worker_context import WorkerContext
 from caesura.worker.records.collection_types import (
     CollectedSegment,
