@@ -1,7 +1,7 @@
 """All takes of a collection cut together: one set of motions over all of them."""
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,10 +29,6 @@ class JointCut:
         """The space that the takes were compared in."""
         return StoredSpace(self.collection.space, self.collection.spreads)
 
-    def segments_of(self, take: TakeRecord, names: Mapping[int, str]) -> tuple[CollectedSegment, ...]:
-        """The segments of a take in motions called by `names`, with how far each is from the others of its motion."""
-        return collected_segments(self.collection, take, names)
-
 
 def cut_together(takes: Sequence[MeasuredTake], asked: int | None, progress: Progress = ignore_progress) -> JointCut:
     """One set of motions over all takes of the body that most of them have; the others are refused, each by name.
@@ -58,19 +54,30 @@ def cut_together(takes: Sequence[MeasuredTake], asked: int | None, progress: Pro
 
 
 def collected_segments(
-    collection: MotionCollection, take: TakeRecord, names: Mapping[int, str]
-) -> tuple[CollectedSegment, ...]:
-    """The segments of a take as its record holds them."""
-    found = []
-    for at, one in enumerate(collection.segments):
-        if one.take != take.animation:
-            continue
-        members = collection.members(one.motion)
+    collection: MotionCollection, takes: Iterable[TakeRecord], names: Mapping[int, str]
+) -> dict[str, tuple[CollectedSegment, ...]]:
+    """The segments of takes as their records hold them, in motions called by `names`: by animation."""
+    records = {take.animation: take for take in takes}
+    rows = [row for row, one in enumerate(collection.segments) if one.take in records]
+    found: dict[str, list[CollectedSegment]] = {name: [] for name in records}
+    for row, far in zip(rows, _mean_distances(collection, rows), strict=True):
+        one = collection.segments[row]
+        segment = segment_at(records[one.take], (one.start, one.end, names[one.motion]))
+        rounded = {"confidence": round(one.sure, 4), "distance": round(far, 5)}
+        found[one.take].append(segment.model_copy(update=rounded))
+    return {name: tuple(segments) for name, segments in found.items()}
+
+
+def _mean_distances(collection: MotionCollection, rows: Sequence[int]) -> list[float]:
+    """How far segments are from the others of their motion, on average."""
+    motions = np.array([collection.segments[row].motion for row in rows], np.int64)
+    far = np.zeros(len(rows))
+    for motion in np.unique(motions).tolist():
+        members = collection.members(motion)
         asked = members[:: max(len(members) // MOST_COMPARED, 1)][:MOST_COMPARED]
-        far = float(collection.distances(np.array([at]), asked).mean())
-        segment = segment_at(take, (one.start, one.end, names[one.motion]))
-        found.append(segment.model_copy(update={"confidence": round(one.sure, 4), "distance": round(far, 5)}))
-    return tuple(found)
+        ours = np.flatnonzero(motions == motion)
+        far[ours] = collection.distances(np.array(rows)[ours], asked).mean(axis=1)
+    return far.tolist()
 
 
 def _difference(one: MeasuredTake, other: MeasuredTake) -> dict[str, object]:

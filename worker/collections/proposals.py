@@ -56,8 +56,9 @@ def _recut(
     found = cut_together([read_measured(here.blobs, take) for take in takes], proposal.asked)
     names = _matched(found.collection, takes, [motion.id for motion in record.motions])
     known = {motion.id for motion in record.motions}
+    segments = collected_segments(found.collection, takes, names)
     after = {
-        take.animation: lay_around_corrections(take, collected_segments(found.collection, take, names))
+        take.animation: lay_around_corrections(take, segments[take.animation])
         for take in takes
         if take.animation not in found.refused
     }

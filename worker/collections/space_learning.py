@@ -3,12 +3,11 @@
 import time
 from collections.abc import Iterable, Sequence
 
-from caesura.core.together.measured_take import MeasuredTake
 from caesura.core.together.motion_signature import MotionSignatures
 from caesura.core.together.pose_space import PoseSpace
 from caesura.core.together.take_segments import sign_take
 from caesura.worker.collections.stored_space import StoredSpace
-from caesura.worker.collections.take_files import as_labelled, put_index, read_measured
+from caesura.worker.collections.take_files import as_labelled, put_indices, read_measured
 from caesura.worker.process.worker_context import WorkerContext
 from caesura.worker.records.collection_types import CollectionRecord, TakeRecord
 from caesura.worker.records.collections import CollectionChange
@@ -41,20 +40,17 @@ def relearn_space(here: WorkerContext, record: CollectionRecord, takes: Sequence
     """Compare all takes in a space that is learned from all of them."""
     measured = [read_measured(here.blobs, take) for take in takes]
     space = PoseSpace.learn([(one.name, one.poses) for one in measured])
-    signed = [_signed(space, one, take) for one, take in zip(measured, takes, strict=True)]
-    stored = StoredSpace(space, MotionSignatures.joined(signed).spreads())
+    pairs = zip(measured, takes, strict=True)
+    signatures = [sign_take(space, as_labelled(one, take)) for one, take in pairs]
+    stored = StoredSpace(space, MotionSignatures.joined(signatures).spreads())
     key = here.blobs.put(stored.to_bytes(), "collections")
-    put = tuple(take.model_copy(update={"numbers": put_index(here.blobs, take, key, stored)}) for take in takes)
+    put = tuple(put_indices(here.blobs, takes, measured, signatures, (key, space)))
     changed = record.model_copy(update={"space": key, "learned": len(takes), "updated": time.time()})
     version = record.version
     change = CollectionChange(changed, put)
     kept = here.jobs.records.collections.change(record.id, lambda now: change if now.version == version else None)
     delete_indices(here, put if kept is None else takes)
     here.blobs.delete(key if kept is None else record.space)
-
-
-def _signed(space: PoseSpace, measured: MeasuredTake, take: TakeRecord) -> MotionSignatures:
-    return sign_take(space, as_labelled(measured, take))
 
 
 def delete_indices(here: WorkerContext, takes: Iterable[TakeRecord]) -> None:

@@ -2,6 +2,7 @@
 
 import io
 import struct
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,12 +12,13 @@ from caesura.core.segmentation_document import SegmentationDocument
 from caesura.core.together.example_search import IndexedTake, index_take
 from caesura.core.together.measured_take import MeasuredTake, measure_take
 from caesura.core.together.motion_signature import MotionSignatures
+from caesura.core.together.pose_space import PoseSpace
 from caesura.core.together.take_segments import sign_take
 from caesura.formats.read import read_animation
 from caesura.worker.collections.stored_space import StoredSpace
 from caesura.worker.process.job_quota import JobQuota
 from caesura.worker.process.worker_context import WorkerContext
-from caesura.worker.records.collection_types import TakeNumbers, TakeRecord
+from caesura.worker.records.collection_types import TakeRecord
 from caesura.worker.records.record_types import SegmentationRecord
 from caesura.worker.records.revisions import read_edits
 from caesura.worker.store.blobs import BlobMissing, Blobs
@@ -68,18 +70,23 @@ def as_labelled(measured: MeasuredTake, take: TakeRecord) -> MeasuredTake:
     return replace(measured, bounds=np.array(bounds, np.int64), motions=0 * ones, repetitions=ones)
 
 
-def put_index(blobs: Blobs, take: TakeRecord, key: str, stored: StoredSpace) -> TakeNumbers:
-    """Keep the signatures of a take's segments and what is searched of it, in the space that the blob `key` holds."""
-    measured = read_measured(blobs, take)
-    assert take.numbers is not None  # noqa: S101  it was just read
-    signatures = sign_take(stored.space, as_labelled(measured, take))
-    searched = index_take(stored.space, measured.name, measured.poses)
-    return TakeNumbers(
-        poses=take.numbers.poses,
-        space=key,
-        signatures=blobs.put(_signatures_bytes(signatures), "collections"),
-        searched=blobs.put(_searched_bytes(searched), "collections"),
-    )
+def put_indices(
+    blobs: Blobs,
+    takes: Sequence[TakeRecord],
+    measured: Sequence[MeasuredTake],
+    signatures: Sequence[MotionSignatures],
+    space: tuple[str, PoseSpace],
+) -> list[TakeRecord]:
+    """The takes with the signatures of their segments and what is searched of them kept, in a space of this blob."""
+    key, learned = space
+    signed = blobs.put_all([_signatures_bytes(one) for one in signatures], "collections")
+    searched = [_searched_bytes(index_take(learned, one.name, one.poses)) for one in measured]
+    kept = []
+    for take, *keys in zip(takes, signed, blobs.put_all(searched, "collections"), strict=True):
+        assert take.numbers is not None  # noqa: S101  it is measured
+        names = {"space": key, "signatures": keys[0], "searched": keys[1]}
+        kept.append(take.model_copy(update={"numbers": take.numbers.model_copy(update=names)}))
+    return kept
 
 
 def read_signatures(blobs: Blobs, take: TakeRecord, stored: StoredSpace) -> MotionSignatures:

@@ -3,15 +3,19 @@
 The first takes of a collection are cut together, once all of them are analysed. What is there already never changes.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
+import numpy as np
+
+from caesura.core.together.measured_take import MeasuredTake
+from caesura.core.together.motion_collection import MotionCollection
 from caesura.core.together.take_labelling import label_take
 from caesura.worker.collections.common_motions import add_motions, new_motion_id, new_motions
 from caesura.worker.collections.joint_cut import collected_segments, cut_together
 from caesura.worker.collections.known_motions import known_motions
 from caesura.worker.collections.space_learning import delete_indices, learn_space_anew
 from caesura.worker.collections.stored_space import StoredSpace
-from caesura.worker.collections.take_files import put_index, read_measured
+from caesura.worker.collections.take_files import put_indices, read_measured
 from caesura.worker.collections.take_measuring import failed_take, measure_ready, waiting_takes
 from caesura.worker.process.worker_context import WorkerContext
 from caesura.worker.queue.queues import TimeLimit
@@ -50,19 +54,22 @@ def _label_measured(here: WorkerContext, identifier: str) -> bool:
 
 def _cut_first(here: WorkerContext, record: CollectionRecord, takes: Sequence[TakeRecord]) -> CollectionChange:
     """The first takes of a collection, cut together."""
-    found = cut_together([read_measured(here.blobs, take) for take in takes], record.asked)
+    measured = {take.animation: read_measured(here.blobs, take) for take in takes}
+    found = cut_together(list(measured.values()), record.asked)
+    refused = [
+        take.model_copy(update={"status": "failed", "problem": found.refused[take.animation]})
+        for take in takes
+        if take.animation in found.refused
+    ]
+    fitting = [take for take in takes if take.animation not in found.refused]
     identifiers = {motion: new_motion_id() for motion in found.collection.motion_ids}
     key = here.blobs.put(found.space.to_bytes(), "collections")
-    put = []
-    for take in takes:
-        if take.animation in found.refused:
-            put.append(take.model_copy(update={"status": "failed", "problem": found.refused[take.animation]}))
-            continue
-        segments = collected_segments(found.collection, take, identifiers)
-        put.append(_with_index(here, take.model_copy(update={"segments": segments}), key, found.space))
-    made = new_motions(record.motions, identifiers.values())
-    with_motions = add_motions(record, made)
-    return CollectionChange(with_motions.model_copy(update={"space": key, "learned": len(put)}), tuple(put))
+    put = _labelled_as(
+        here, fitting, [measured[take.animation] for take in fitting], found.collection, identifiers, key
+    )
+    with_motions = add_motions(record, new_motions(record.motions, identifiers.values()))
+    learned = with_motions.model_copy(update={"space": key, "learned": len(takes)})
+    return CollectionChange(learned, (*put, *refused))
 
 
 def _labelled(here: WorkerContext, record: CollectionRecord, take: TakeRecord) -> CollectionChange:
@@ -71,7 +78,8 @@ def _labelled(here: WorkerContext, record: CollectionRecord, take: TakeRecord) -
     numbers = {motion.id: number for number, motion in enumerate(record.motions)}
     known = known_motions(here, record, stored, numbers)
     try:
-        update = label_take(known, read_measured(here.blobs, take))
+        measured = read_measured(here.blobs, take)
+        update = label_take(known, measured)
     except TimeLimit:
         raise
     except Exception as fault:  # noqa: BLE001  said of the take; a bug is logged
@@ -79,11 +87,27 @@ def _labelled(here: WorkerContext, record: CollectionRecord, take: TakeRecord) -
     names = {number: motion for motion, number in numbers.items()}
     names |= {number: new_motion_id() for number in update.new_motions}
     made = new_motions(record.motions, [names[number] for number in update.new_motions])
-    segments = collected_segments(update.collection, take, names)
-    labelled = _with_index(here, take.model_copy(update={"segments": segments}), record.space, stored)
-    return CollectionChange(add_motions(record, made), (labelled,))
+    put = _labelled_as(here, [take], [measured], update.collection, names, record.space)
+    return CollectionChange(add_motions(record, made), put)
 
 
-def _with_index(here: WorkerContext, take: TakeRecord, key: str, stored: StoredSpace) -> TakeRecord:
-    numbers = put_index(here.blobs, take, key, stored)
-    return take.model_copy(update={"status": "labelled", "problem": None, "numbers": numbers})
+def _labelled_as(
+    here: WorkerContext,
+    takes: Sequence[TakeRecord],
+    measured: Sequence[MeasuredTake],
+    collection: MotionCollection,
+    names: Mapping[int, str],
+    key: str,
+) -> tuple[TakeRecord, ...]:
+    """The takes with their segments in the motions of a collection, and with what they are compared by."""
+    segments = collected_segments(collection, takes, names)
+    rows: dict[str, list[int]] = {take.animation: [] for take in takes}
+    for row, one in enumerate(collection.segments):
+        if one.take in rows:
+            rows[one.take].append(row)
+    labelled = [
+        take.model_copy(update={"status": "labelled", "problem": None, "segments": segments[take.animation]})
+        for take in takes
+    ]
+    signatures = [collection.signatures[np.array(rows[take.animation], np.int64)] for take in takes]
+    return tuple(put_indices(here.blobs, labelled, measured, signatures, (key, collection.space)))

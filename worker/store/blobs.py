@@ -8,7 +8,8 @@ import errno
 import os
 import re
 import secrets
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 from datetime import timedelta
 from itertools import chain
@@ -33,6 +34,8 @@ CHUNK_BYTES = 1 << 17
 SENT_BYTES, PIECE_BYTES = 1 << 20, 8 << 20
 """Asked of a remote store at once, for a client and for a copy: it must arrive within one request's time (AWS_TIMEOUT,
 else 30 s)."""
+SENT_AT_ONCE = 8
+"""Small blobs, to a remote store."""
 RETRIES: "RetryConfig" = {"max_retries": 5, "retry_timeout": timedelta(seconds=20)}
 """A store that is away for longer is told to whoever asks, who can wait better than a thread here."""
 
@@ -67,11 +70,23 @@ class Blobs:
 
         Raises OSError or obstore's `BaseError` where the store is full or unreachable; the file then stays.
         """
-        key = _new_key(kind)
-        if self._folder is None or not _move(path, self._folder / key):
-            obstore.put(self._store, key, path)
-            path.unlink(missing_ok=True)
+        key = self._place(path, kind)
+        if self._folder is not None:
+            _fsync_folder(self._folder / kind)
         return key
+
+    def put_all(self, contents: Sequence[bytes], kind: Kind) -> list[str]:
+        """Keep several small ones, each as a blob of its own; the disk is waited for once."""
+        if self._folder is None or not contents:
+            with ThreadPoolExecutor(SENT_AT_ONCE) as pool:
+                return list(pool.map(lambda content: self.put(content, kind), contents))
+        keys = []
+        for content in contents:
+            with temporary_file(self._scratch) as file:
+                write_all(file, content)
+                keys.append(self._place(file_path(file), kind))
+        _fsync_folder(self._folder / kind)
+        return keys
 
     def put(self, content: bytes | memoryview | Iterator[bytes], kind: Kind, stays_free: int | None = None) -> str:
         """Keep some bytes, at once or piece by piece as they are made.
@@ -150,6 +165,14 @@ class Blobs:
         for page in obstore.list(self._store):
             yield from ((str(blob["path"]), int(blob["size"])) for blob in page)
 
+    def _place(self, path: Path, kind: Kind) -> str:
+        """Move a file to a new name, or copy it where it cannot be moved."""
+        key = _new_key(kind)
+        if self._folder is None or not _move(path, self._folder / key):
+            obstore.put(self._store, key, path)
+            path.unlink(missing_ok=True)
+        return key
+
     def _existing(self, key: str) -> Path:
         path = (self._folder or Path()) / key
         with _missing(key):
@@ -181,7 +204,7 @@ def _new_key(kind: Kind) -> str:
 
 
 def _move(path: Path, target: Path) -> bool:
-    """Move a file to its name for good, or say that it lies on another file system."""
+    """Move a file to its name, or say that it lies on another file system."""
     target.parent.mkdir(parents=True, exist_ok=True)
     try:
         path.rename(target)
@@ -189,9 +212,13 @@ def _move(path: Path, target: Path) -> bool:
         if refused.errno == errno.EXDEV:
             return False
         raise
-    folder = os.open(target.parent, os.O_RDONLY)
+    return True
+
+
+def _fsync_folder(path: Path) -> None:
+    """Make the names in a folder last."""
+    folder = os.open(path, os.O_RDONLY)
     try:
         os.fsync(folder)
     finally:
         os.close(folder)
-    return True

@@ -123,6 +123,20 @@ def remote(bucket, tmp_path, monkeypatch):
     return Blobs.open(f"s3://{BUCKET}/some/prefix", tmp_path / "scratch")
 
 
+@pytest.mark.parametrize("store", ["blobs", "remote"])
+def test_several_small_blobs_are_kept_at_once(request, store):
+    """Each under a key of its own, in their order; none at all is fine."""
+    blobs = request.getfixturevalue(store)
+    contents = [bytes([n]) * n for n in range(20)]
+    keys = blobs.put_all(contents, "collections")
+    assert [blobs.read(key) for key in keys] == contents
+    assert len(set(keys)) == 20
+    assert blobs.put_all([], "collections") == []
+    assert len(list(blobs.all())) == 20
+    for key in keys:
+        blobs.delete(key)
+
+
 def test_a_bucket_keeps_what_a_folder_keeps(remote, bucket, tmp_path):
     """Moved in, made piece by piece, read whole and by range, lent, listed by the keys that were given, deleted."""
     large = bytes(range(256)) * 30_000
