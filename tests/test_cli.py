@@ -1,9 +1,12 @@
 """The command `caesura`, as it is installed: what it prints, where, and how it ends."""
 
+import csv
 import json
+import shutil
 import socket
 import subprocess
 import sys
+import tempfile
 import zipfile
 from collections.abc import Iterator
 from itertools import pairwise
@@ -365,3 +368,92 @@ def test_takes_cut_together_share_names_and_are_searched(folder: Path, tmp_path:
     assert {one["take"].rpartition("/")[2] for one in ranges} == {"take", "again"}
     assert caesura("segment", again, "--together").returncode == 2
     assert caesura("find", again, "--in", tmp_path).returncode == 2
+
+
+@pytest.fixture(scope="module")
+def cut_folder(folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder of one take that was cut together with its motion A named, and the other not."""
+    out = tmp_path_factory.mktemp("named") / "cut"
+    given = ("--motions", "2", "--out", out, "--clips", "--csv", "--loop", "walk", "--name", "A=walk")
+    run = caesura("segment", folder / "take.npz", "--together", *given)
+    assert run.returncode == 0, run.stderr
+    return out
+
+
+@pytest.fixture
+def own_folder(cut_folder: Path) -> Path:
+    """A copy of it for one test, as far from the file that was cut."""
+    copy = Path(tempfile.mkdtemp(dir=cut_folder.parent))
+    return Path(shutil.copytree(cut_folder, copy, dirs_exist_ok=True))
+
+
+def entries(archive: Path) -> list[str]:
+    """The names of what a zip holds."""
+    with zipfile.ZipFile(archive) as opened:
+        return opened.namelist()
+
+
+def names_in(out: Path) -> list[set[str]]:
+    """The names of motions in each file of a folder that says them, but for numbers and loops."""
+    (clips,) = out.rglob("take.clips.zip")
+    clipped = {name.partition(".")[0].removesuffix("-loop") for name in entries(clips)}
+    tables = [next(out.rglob("take.csv")), out / "motions.csv"]
+    (document,) = out.rglob("take.json")
+    listed = json.loads((out / "motions.json").read_text())
+    return [
+        {name.removesuffix("_take_01") for name in clipped},
+        *({row["name"] for row in csv.DictReader(table.read_text().splitlines())} for table in tables),
+        {segment["name"] for segment in json.loads(document.read_text())["segments"]},
+        {motion["name"] for motion in listed["motions"]},
+        {segment["name"] for take in listed["takes"] for segment in take["segments"]},
+    ]
+
+
+def test_motions_are_named_as_takes_are_cut(cut_folder: Path) -> None:
+    """In every file, and a motion that has a name is one that options of clips know."""
+    assert names_in(cut_folder) == [{"walk", "B"}] * 6
+    (clips,) = cut_folder.rglob("take.clips.zip")
+    assert any(name.startswith("walk_take_01-loop") for name in entries(clips))
+
+
+def test_motions_of_a_folder_are_renamed_without_a_cut(own_folder: Path) -> None:
+    """All at once, so two may exchange names; clips keep their options; segments stay as they were."""
+    before = json.loads((own_folder / "motions.json").read_text())
+    run = caesura("rename", own_folder, "walk=B", "B=sit down")
+    assert run.returncode == 0, run.stderr
+    assert "sit down" in run.stdout
+    assert names_in(own_folder) == [{"B", "sit_down"}, *[{"B", "sit down"}] * 5]
+    (clips,) = own_folder.rglob("take.clips.zip")
+    assert any(name.startswith("B_take_01-loop") for name in entries(clips))
+    after = json.loads((own_folder / "motions.json").read_text())
+    assert [motion["id"] for motion in after["motions"]] == [motion["id"] for motion in before["motions"]]
+    ends = [[segment["end"] for segment in found["takes"][0]["segments"]] for found in (before, after)]
+    assert ends[0] == ends[1]
+    assert caesura("rename", own_folder, "B=", "sit down=B").returncode == 0
+    assert names_in(own_folder) == [{"A", "B"}] * 6
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (("Z=walk",), "There is no motion Z. The motions are"),
+        (("walk",), "write it as A=walk"),
+        (("walk=same", "B=SAME"), "Two motions would be called"),
+    ],
+)
+def test_names_that_cannot_be_are_refused(own_folder: Path, given: tuple[str, ...], said: str) -> None:
+    """Before anything is written."""
+    before = {path: path.read_bytes() for path in own_folder.rglob("*") if path.is_file()}
+    run = caesura("rename", own_folder, *given)
+    assert (run.returncode, said in run.stderr) == (2, True), run.stderr
+    assert {path: path.read_bytes() for path in own_folder.rglob("*") if path.is_file()} == before
+
+
+def test_clips_are_renamed_only_while_their_files_are_there(cut_folder: Path, tmp_path: Path) -> None:
+    """A folder that is elsewhere, without them, is left as it is, and says which is missing."""
+    moved = tmp_path / "far" / "away" / "moved"
+    shutil.copytree(cut_folder, moved)
+    run = caesura("rename", moved, "walk=jump")
+    assert run.returncode == 3
+    assert "take.npz, which is not there. Nothing is renamed." in run.stderr
+    assert names_in(moved) == names_in(cut_folder)

@@ -2,6 +2,7 @@
 
 cli                                   the list of commands
 segment, submit, score                segment files here, by a service, and compare with a truth
+rename, find                          name the motions of takes cut together, and find one
 compare, comparison                   compare the methods on labelled takes
 serve, worker, demo, keys             run the service, workers, the demo, and make API keys
 options, file_arguments, output_files  options of the method, input files and output files

@@ -12,6 +12,7 @@ from caesura.service.commands.find import find
 from caesura.service.commands.formats import formats
 from caesura.service.commands.keys import keys
 from caesura.service.commands.options import with_dashes
+from caesura.service.commands.rename import rename
 from caesura.service.commands.score import score
 from caesura.service.commands.segment import segment
 from caesura.service.commands.serve import serve
@@ -36,7 +37,7 @@ def main() -> None:
             stream.reconfigure(errors="backslashreplace")
 
 
-for command in (serve, worker, keys, segment, find, submit, score, compare, formats, demo):
+for command in (serve, worker, keys, segment, find, rename, submit, score, compare, formats, demo):
     main.add_command(command)
 
 

@@ -12,6 +12,7 @@ from caesura.service.commands.batch import Batch
 from caesura.service.commands.exit_codes import INTERRUPTED, TERMINATED, Command, leave_broken_pipe, print_problem
 from caesura.service.commands.file_arguments import STANDARD, ExistingFiles, output_paths
 from caesura.service.commands.file_segmentation import FileOutcome, FileTask
+from caesura.service.commands.joint.motion_names import parse_names
 from caesura.service.commands.joint.segmentation import segment_files_together
 from caesura.service.commands.output_files import Outputs, output_option_decorators
 from caesura.service.commands.terminal.segment_table import print_table
@@ -31,6 +32,7 @@ FOLDER = click.Path(file_okay=False, path_type=Path)
 @options.parameter_option_decorators
 @click.option("--json", "as_json", is_flag=True, help="Print the segmentation document, one line for each file.")
 @click.option("--together", is_flag=True, help="One set of motions over all files, of one body.  [with --out]")
+@click.option("--name", "named", metavar="OLD=NEW", multiple=True, help="Call a motion so.  [of --together]")
 @options.clip_option_decorators
 @click.option("--force", is_flag=True, help="Write over a FILE or another animation where an output is called so.")
 @click.option("--jobs", type=click.IntRange(1), default=1, show_default=True, help="Files at once, each in a process.")
@@ -43,6 +45,7 @@ def segment(
     out: Path | None,
     as_json: bool,
     together: bool,
+    named: tuple[str, ...],
     force: bool,
     jobs: int,
     threads: int | None,
@@ -56,7 +59,7 @@ def segment(
 
     With --together, the files are takes of one body, and a motion has the same name in all of them. --motions is the
     number of motions of all; motions.csv and motions.json in --out hold the segments of all, and clips are called
-    after motion and file.
+    after motion and file. --name A=walk names a motion, and caesura rename does it later.
 
     With --out, --clips, --csv and the like need no name: each file's results are named after it. As a FILE, or as the
     name of an output, - is standard input or output.
@@ -77,10 +80,11 @@ def segment(
         FileTask(path, tuple(companions), parameters, outputs, target, threads)
         for path, target in zip(animations, targets, strict=True)
     ]
+    names = parse_names(named)
     if together:
-        if out is None:
-            raise click.UsageError("--together writes results of all files: it needs --out DIR beside it.")
-        context.exit(segment_files_together(tasks, out, as_json=as_json))
+        context.exit(segment_files_together(tasks, out, names, as_json=as_json))
+    if names:
+        raise click.UsageError("--name says how common motions are called: it needs --together beside it.")
     batch, quiet = Batch(tasks), out is not None or outputs.to_standard_output
     try:
         with termination_as_interrupt():

@@ -3,26 +3,39 @@
 import csv
 import io
 import json
-from collections.abc import Iterator
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from caesura.core.segmentation_document import SegmentationDocument
+from caesura.formats.clips.clip_names import engine_safe_name
 from caesura.service.commands.exit_codes import NotWritten
+from caesura.service.commands.output_files import Outputs
 
 if TYPE_CHECKING:
     from caesura.core.together.motion_collection import MotionCollection
     from caesura.joint_segmentation import JointSegmentation
 
-COLLECTION = "motions.npz"
+COLLECTION, DOCUMENT = "motions.npz", "motions.json"
 COLUMNS = ("take", "name", "motion", "start", "end", "start_seconds", "end_seconds", "sure", "best", "duplicate_of")
 
 
-def write_joint(found: "JointSegmentation", folder: Path) -> None:
-    """`motions.csv`, `motions.json`, and `motions.npz`, which `caesura find` searches."""
+def write_joint(
+    found: "JointSegmentation", folder: Path, outputs: Outputs, sources: Mapping[str, Sequence[Path]]
+) -> None:
+    """`motions.csv`, `motions.json`, and `motions.npz`, which `caesura find` searches, last.
+
+    The document says too which files each take was read from, by its place from the folder, and what was made of all.
+    """
+    document = joint_document(found.collection)
+    for take in document["takes"]:
+        take["files"] = [os.path.relpath(path, folder) for path in sources[take["name"]]]
+    document["outputs"] = {"forms": [*outputs.forms], "options": outputs.options.model_dump(exclude_unset=True)}
     files = {
         "motions.csv": joint_csv(found.collection).encode(),
-        "motions.json": (json.dumps(joint_document(found.collection), indent=1) + "\n").encode(),
+        DOCUMENT: (json.dumps(document, indent=1) + "\n").encode(),
         COLLECTION: found.to_bytes(),
     }
     try:
@@ -33,6 +46,15 @@ def write_joint(found: "JointSegmentation", folder: Path) -> None:
             aside.replace(folder / name)
     except OSError as fault:
         raise NotWritten.because(fault, str(folder)) from fault
+
+
+def take_outputs(outputs: Outputs, source: Path) -> Outputs:
+    """The outputs of one take: where nobody says otherwise, clips are called after motion, file and number."""
+    if "clips" not in outputs.forms or "names" in outputs.options.model_fields_set:
+        return outputs
+    named = engine_safe_name(source.stem).replace("{", "").replace("}", "")
+    options = outputs.options.model_copy(update={"names": f"{{motion}}_{named}_{{number}}"})
+    return replace(outputs, options=options)
 
 
 def joint_document(collection: "MotionCollection") -> dict[str, Any]:

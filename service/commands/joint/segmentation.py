@@ -1,10 +1,9 @@
 """`caesura segment --together`: the takes one after the other, then their motions, then what is written of each."""
 
 import json
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import click
 
@@ -12,27 +11,36 @@ from caesura.core.errors import CaesuraError
 from caesura.core.limits import Limits
 from caesura.core.segmentation_document import SegmentationDocument
 from caesura.file_sources import open_parts
-from caesura.formats.clips.clip_names import engine_safe_name
 from caesura.mapped_files import scratch_buffer
 from caesura.service.commands.exit_codes import exit_code, print_problem
 from caesura.service.commands.file_segmentation import FileTask
+from caesura.service.commands.joint.motion_names import rename_motions
 from caesura.service.commands.terminal.progress_bar import ProgressBar
 from caesura.worker.control_characters import escape_control_characters
 
 if TYPE_CHECKING:
     from caesura.core.together.measured_take import MeasuredTake
+    from caesura.joint_segmentation import JointSegmentation
+
+CutFile: TypeAlias = "tuple[FileTask, MeasuredTake, SegmentationDocument]"
+"""A file, what is compared of it, and its own result."""
 
 
-def segment_files_together(tasks: Sequence[FileTask], folder: Path, *, as_json: bool) -> int:
-    """Segment the files, write the results, and print a table; the exit code.
+def segment_files_together(
+    tasks: Sequence[FileTask], folder: Path | None, names: Mapping[str, str], *, as_json: bool
+) -> int:
+    """Segment the files, write the results with motions named anew, and print a table; the exit code.
 
-    A file that is bad, or of another body than the first good one, is named and left out.
+    A file that is bad, or of another body than the first good one, is named and left out. Raises `UsageError` where no
+    folder to write to is given.
     """
     from caesura.core.together.segment_together import segment_together
     from caesura.joint_segmentation import JointSegmentation
-    from caesura.service.commands.joint.output import in_common_motions, joint_document, joint_table, write_joint
+    from caesura.service.commands.joint.output import joint_document, joint_table
 
-    done: list[tuple[FileTask, MeasuredTake, SegmentationDocument]] = []
+    if folder is None:
+        raise click.UsageError("--together writes results of all files: it needs --out DIR beside it.")
+    done: list[CutFile] = []
     code = 0
     for task in tasks:
         try:
@@ -50,21 +58,31 @@ def segment_files_together(tasks: Sequence[FileTask], folder: Path, *, as_json: 
     takes = tuple(measured for _, measured, _ in done)
     motions = tasks[0].parameters.motions
     found = JointSegmentation(segment_together(takes, motions), takes)
-    for task, measured, document in done:
-        named = engine_safe_name(task.path.stem).replace("{", "").replace("}", "")
-        options = task.outputs.options
-        if "clips" in task.outputs.forms and "names" not in options.model_fields_set:
-            options = options.model_copy(update={"names": f"{{motion}}_{named}_{{number}}"})
-        outputs = replace(task.outputs, options=options)
-        parts = open_parts([task.path, *(one for one in task.companions if one != task.path)])
-        outputs.write(parts, in_common_motions(document, measured.name, found), task.target)
-    write_joint(found, folder)
+    try:
+        found = JointSegmentation(rename_motions(found.collection, names), takes)
+    except CaesuraError as refused:  # after hours of work: it is written all the same, and can be renamed
+        refusal = print_problem(refused.problem(), as_json=as_json)
+        code = code or refusal
+    _write(done, found, folder)
     if as_json:
         click.echo(json.dumps(joint_document(found.collection)))
     else:
         lines = joint_table(found.collection).split("\n")
         click.echo("\n".join(map(escape_control_characters, lines)))
     return code
+
+
+def _write(done: Sequence[CutFile], found: "JointSegmentation", folder: Path) -> None:
+    """The results of each file in the common motions, then those of all."""
+    from caesura.service.commands.joint.output import in_common_motions, take_outputs, write_joint
+
+    sources: dict[str, list[Path]] = {}
+    for task, measured, document in done:
+        files = [task.path, *(one for one in task.companions if one != task.path)]
+        named = in_common_motions(document, measured.name, found)
+        take_outputs(task.outputs, task.path).write(open_parts(files), named, task.target)
+        sources[measured.name] = files
+    write_joint(found, folder, done[0][0].outputs, sources)
 
 
 def _measure(task: FileTask, folder: Path) -> "tuple[MeasuredTake, SegmentationDocument]":
