@@ -132,13 +132,50 @@ def test_similar_ranges_are_found_and_opened(collection: Page, axe: str) -> None
     expect(collection.locator("#takes-table tbody canvas")).to_have_count(GOOD)
 
 
+FIGURES = """([share, width, height]) => new Promise((resolve) => {
+    const slider = document.getElementById('together-share');
+    slider.value = share;
+    slider.dispatchEvent(new Event('input'));  // draws; pixels are there to be read in that frame
+    requestAnimationFrame(() => {
+        const copy = Object.assign(document.createElement('canvas'), { width, height });
+        const context = copy.getContext('2d');
+        context.drawImage(document.getElementById('together-figures'), 0, 0, width, height);
+        resolve(Array.from(context.getImageData(0, 0, width, height).data));
+    });
+})"""
+
+
+def bodies_at(page: Page, share: float) -> list[np.ndarray]:
+    """Where the bodies of twelve figures in two rows are, so far into their motion; the floor is never opaque."""
+    opaque = np.array(page.evaluate(FIGURES, [share, 360, 120])).reshape(2, 60, 6, 60, 4)[..., 3] == 255
+    return list(opaque.transpose(0, 2, 1, 3).reshape(12, 60, 60))
+
+
+def overlap(one: np.ndarray, other: np.ndarray) -> float:
+    """What two shapes share, of what either covers."""
+    return float((one & other).sum() / (one | other).sum())
+
+
 def test_all_of_a_motion_play_side_by_side(collection: Page, axe: str) -> None:
-    """A tile for each segment; they turn over together, and stop."""
-    collection.locator(".motion-card").first.get_by_role("button", name="Side by side").click()
-    tiles = collection.locator("#together-tiles canvas[data-drawn]")
-    expect(tiles.nth(2)).to_be_visible(timeout=LONG)
+    """As figures on one stage, in one rhythm: bars that do the same look the same, wherever each performed it."""
+    together = collection.locator(".motion-card").first.get_by_role("button", name="Side by side")
+    together.click()
+    expect(collection.locator("#together-figures[data-shown='12']")).to_be_visible(timeout=LONG)
+    early, late = bodies_at(collection, 0.1), bodies_at(collection, 0.6)
+    for first, *others in (early, late):
+        assert min(overlap(first, other) for other in others[: GOOD - 1]) > 0.8
+    assert overlap(early[0], late[0]) < 0.6
     assert faults(collection, axe) == []
     collection.locator("#together-close").click()
+    collection.set_viewport_size({"width": 390, "height": 844})
+    together.click()
+    for seen in ("1 to 6", "7 to 12"):
+        expect(collection.locator("#together-note")).to_have_text(
+            f"{seen} of 12 segments, each as far into the motion as the first.", timeout=LONG
+        )
+        expect(collection.locator("#together-tiles li")).to_have_count(6)
+        collection.locator("#together-later:enabled").or_(collection.locator("#together-close")).first.click()
+    collection.set_viewport_size({"width": 1100, "height": 720})
 
 
 def test_a_correction_is_proposed_for_others_and_refused(collection: Page, axe: str) -> None:

@@ -53,7 +53,7 @@ export class CollectionView {
     this.#said = '';
     this.#cards = new MotionCards($('motion-cards'), {
       change: (motion, changes) => this.#changeMotion(motion, changes),
-      together: (motion) => showSideBySide(collection, motion, this.#pictures),
+      together: (motion) => showSideBySide(collection, motion),
       similar: (motion) => this.#similar(motion.exemplar, motion.name),
       picture: (motion, canvas) => this.#drawExemplar(motion, canvas),
     });

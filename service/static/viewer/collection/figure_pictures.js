@@ -49,7 +49,7 @@ export class FigurePictures {
   async #show(segmentation) {
     this.#signal.throwIfAborted();
     if (this.#shown === segmentation) return;
-    const viewer = await this.#viewer(segmentation);
+    const viewer = await viewerOf(segmentation, this.#signal);
     const [{ FigureScene }, renderer] = await Promise.all([import('../figure/scene.js'), probeRenderer()]);
     scene ||= new FigureScene(this.#place.querySelector('canvas'), isSoftware(renderer), { turns: false });
     this.#shown = '';
@@ -57,15 +57,15 @@ export class FigurePictures {
     this.#signal.throwIfAborted();
     this.#shown = segmentation;
   }
+}
 
-  /** The viewer document, as soon as the figure is prepared. */
-  async #viewer(segmentation) {
-    for (let attempt = 0; ; attempt++) {
-      try { return await api.viewer(segmentation); } catch (problem) {
-        if (problem.document?.code !== 'not-finished' || attempt === ATTEMPTS) throw problem;
-        await new Promise((done) => setTimeout(done, SOON));
-        this.#signal.throwIfAborted();
-      }
+/** The viewer document of a segmentation, as soon as the figure is prepared. */
+export async function viewerOf(segmentation, signal) {
+  for (let attempt = 0; ; attempt++) {
+    try { return await api.viewer(segmentation); } catch (problem) {
+      if (problem.document?.code !== 'not-finished' || attempt === ATTEMPTS) throw problem;
+      await new Promise((done) => setTimeout(done, SOON));
+      signal.throwIfAborted();
     }
   }
 }

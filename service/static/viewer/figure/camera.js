@@ -74,9 +74,9 @@ export class FigureCamera {
     this.#controls.update();
   }
 
-  /** Set the view for one of `share` pictures side by side on a canvas of `width` by `height`. */
-  setView({ width, height }, share) {
-    this.camera.aspect = width / share / height;
+  /** Set the view for one of the pictures in `columns` and `rows` on a canvas of `width` by `height`. */
+  setView({ width, height }, columns, rows) {
+    this.camera.aspect = (width / columns) / (height / rows);
     // A half is narrower, so the figure is drawn smaller there: as much of it is seen as on the whole canvas.
     this.camera.zoom = Math.min(1, this.camera.aspect) / Math.min(1, width / height);
     this.camera.updateProjectionMatrix();

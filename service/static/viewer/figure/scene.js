@@ -26,6 +26,7 @@ export class FigureScene {
     this.canvas = canvas;
     this.#software = software;
     this.figure = null;
+    this.columns = Infinity; // of poses side by side; more stand in rows below
     this.ghost = new MeshLambertMaterial({ transparent: true, opacity: GHOST });
     this.strain = new SurfaceShading();
     this.#renderer = rendererOn(canvas, software);
@@ -42,11 +43,11 @@ export class FigureScene {
   /** Whether the camera follows the body. */
   set following(on) { this.#camera.following = on; }
 
-  /** Show the figure of a viewer document, from the `files` of `downloadFigure`, in place of the one before. */
-  async show(viewer, files, signal) {
+  /** Show the figure of a viewer document, from the `files` of `downloadFigure`, in place of the one before; `create` makes it. */
+  async show(viewer, files, signal, create = viewer.kind === 'gltf' ? createGltfFigure : createVertexFigure) {
     const [model, colours] = await Promise.all([files.model, files.strain]);
     const strain = new SurfaceShading(colours);
-    const figure = await (viewer.kind === 'gltf' ? createGltfFigure : createVertexFigure)(viewer, model, strain, this.#software);
+    const figure = await create(viewer, model, strain, this.#software);
     if (signal.aborted) return figure.dispose();
     this.clear();
     this.strain = strain;
@@ -169,12 +170,16 @@ export class FigureScene {
   #render() {
     const { width, height } = this.#size;
     const share = Math.max(1, this.#poses.length);
-    this.#camera.setView(this.#size, share);
+    const columns = Math.min(share, this.columns);
+    const rows = Math.ceil(share / columns);
+    this.#camera.setView(this.#size, columns, rows);
     this.#renderer.setScissorTest(share > 1);
     for (let place = 0; place < share; place++) {
-      this.#renderer.setViewport((place * width) / share, 0, width / share, height);
+      const row = Math.floor(place / columns);
+      const part = [((place % columns) * width) / columns, height - ((row + 1) * height) / rows, width / columns, height / rows];
+      this.#renderer.setViewport(...part);
       this.#poseFigure(this.#poses[place], place === 0);
-      this.#renderer.setScissor((place * width) / share, 0, width / share, height);
+      this.#renderer.setScissor(...part);
       this.#renderer.render(this.#scene, this.#camera.camera);
     }
     if (this.figure && this.#ghosts.length) this.#renderGhosts();
