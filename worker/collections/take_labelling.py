@@ -25,17 +25,16 @@ from caesura.worker.records.collections import CollectionChange
 
 def label_waiting(here: WorkerContext, identifier: str) -> None:
     """Measure and label what is ready; returns once nothing more is."""
-    while measure_ready(here, identifier) or _label_measured(here, identifier):
-        continue
+    while (found := waiting_takes(here, identifier)) is not None:
+        if not measure_ready(here, identifier, found[1]) and not _label_measured(here, *found):
+            break
     learn_space_anew(here, identifier)
 
 
-def _label_measured(here: WorkerContext, identifier: str) -> bool:
+def _label_measured(here: WorkerContext, record: CollectionRecord, waiting: Sequence[TakeRecord]) -> bool:
     """Label a take that waits and is measured, or cut the first ones together; whether there was any."""
-    collections = here.jobs.records.collections
-    record, waiting = collections.one(identifier), waiting_takes(here, identifier)
     ready = [take for take in waiting if take.numbers is not None]
-    if record is None or not ready:
+    if not ready:
         return False
     if record.space:
         change = _labelled(here, record, ready[0])
@@ -44,7 +43,7 @@ def _label_measured(here: WorkerContext, identifier: str) -> bool:
     else:
         change = _cut_first(here, record, ready)
     version = record.version
-    kept = collections.change(identifier, lambda now: change if now.version == version else None)
+    kept = here.jobs.records.collections.change(record.id, lambda now: change if now.version == version else None)
     if kept is None:  # it was changed meanwhile: look again
         delete_indices(here, change.put)
         if change.record.space != record.space:

@@ -22,10 +22,10 @@ Measured = tuple[TakeRecord, bytes | None]
 """A take, and its poses with its own cut; none where it has failed."""
 
 
-def measure_ready(here: WorkerContext, identifier: str) -> bool:
-    """Measure the takes that are analysed since the last look; whether there was any, or one that never will be."""
+def measure_ready(here: WorkerContext, identifier: str, waiting: Sequence[TakeRecord]) -> bool:
+    """Measure those of the takes that are analysed; whether there was any, or one that never will be."""
     done, measured = False, list[Measured]()
-    for take in waiting_takes(here, identifier):
+    for take in waiting:
         segmentation = here.jobs.records.segmentations.one(take.segmentation)
         if take.numbers is not None or (segmentation is not None and segmentation.live):
             continue
@@ -79,12 +79,15 @@ def _put_measured(here: WorkerContext, identifier: str, measured: Sequence[Measu
             here.blobs.delete(take.numbers.poses)
 
 
-def waiting_takes(here: WorkerContext, identifier: str) -> list[TakeRecord]:
-    """The takes that are not labelled yet, in the order in which they were added."""
+def waiting_takes(here: WorkerContext, identifier: str) -> tuple[CollectionRecord, list[TakeRecord]] | None:
+    """The collection, and its takes that are not labelled yet in the order of their addition; None where none is."""
     collections = here.jobs.records.collections
+    record = collections.one(identifier)
+    if record is None or not record.waiting:
+        return None
     entries = collections.entries(identifier)
     waiting = sorted((entry.added, name) for name, entry in entries.items() if entry.status == "waiting")
-    return collections.takes(identifier, [name for _, name in waiting])
+    return record, collections.takes(identifier, [name for _, name in waiting])
 
 
 def failed_take(take: TakeRecord, fault: Exception, undone: str) -> TakeRecord:
