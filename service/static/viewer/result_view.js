@@ -18,7 +18,6 @@ import { VisibleRange } from './timeline/visible_range.js';
 import { SegmentTrack } from './timeline/segment_track.js';
 import { Overview } from './timeline/overview.js';
 import { Thumbnails } from './figure/thumbnails.js';
-import { LabelTrack } from './labels/label_track.js';
 import { lookOnly } from './views.js';
 import { TimelinePointer } from './timeline/pointer.js';
 import { goToSegment, repeatSegment } from './timeline/navigation.js';
@@ -42,7 +41,7 @@ export class Result {
     const picture = (frame, whenDrawn) => this.thumbnails.of(frame, whenDrawn);
     this.segmentTrack = new SegmentTrack($('timeline'), document, this.range, () => this.curve.plot, picture, signal);
     this.overview = new Overview($('overview'), document, this.range, () => this.curve.plot, signal);
-    this.labelTrack = new LabelTrack(document, this.range, () => this.curve.plot, signal);
+    this.labelTrack = null; // until a person compares
     this.#pointer = new TimelinePointer(this, signal);
     this.#startEditing(document, status);
     this.playhead.listen(() => (this.#hasLeftCut() ? this.editor.select(-1) : this.#showMoment()));
@@ -56,7 +55,7 @@ export class Result {
     this.curve.show(document);
     this.segmentTrack.show(document);
     this.overview.show(document);
-    this.labelTrack.show(document);
+    this.labelTrack?.show(document);
     this.#startEditing(document, status);
   }
 
@@ -66,7 +65,7 @@ export class Result {
     this.curve.edited(document);
     this.segmentTrack.show(document);
     this.overview.show(document);
-    this.labelTrack.show(document);
+    this.labelTrack?.show(document);
     this.#list.show(document);
     this.#keyFrames.show(document);
     showCounts(document);
@@ -92,6 +91,14 @@ export class Result {
 
   /** Choose all segments from the current one to the one whose row has the focus. */
   chooseToFocus() { if (this.#list.focused >= 0) this.editor.chooseTo(this.#list.focused); }
+
+  /** Compare with the labels of a file, on a track of their own. */
+  async compareWith(file) {
+    const { LabelTrack } = await import('./labels/label_track.js');
+    if (this.closed) return;
+    this.labelTrack ??= new LabelTrack(this.document, this.range, () => this.curve.plot, this.#closing.signal);
+    this.labelTrack.open(file);
+  }
 
   arrangeList(by) { this.#list.arrange(by); }
 

@@ -2,12 +2,10 @@
 
 import { Problem } from './service/api.js';
 import { $ } from './dom.js';
-import { showDemonstration } from './start/demonstration.js';
 
 /** Show a view. */
 export function showView(name, title = '') {
   document.body.dataset.view = name;
-  if (name !== 'start') showDemonstration(false);
   document.title = title ? `${title} · Caesura` : 'Caesura';
 }
 
@@ -44,6 +42,7 @@ const REST = 250; // ms that the playhead rests before its frame goes into the a
 
 export const resultInAddress = () => /^\/view\/([^/]+)$/.exec(location.pathname)?.[1];
 export const collectionInAddress = () => /^\/collection\/([^/]+)$/.exec(location.pathname)?.[1];
+export const batchInAddress = () => location.hash === '#batch';
 export const revisionInAddress = () => numberAfter(location.search, /[?&]revision=(\d+)/);
 export const lookOnly = () => /[?&]look=1(&|$)/.test(location.search);
 export const frameInAddress = () => numberAfter(location.hash, /[#&]frame=(\d+)/);

@@ -37,9 +37,10 @@ export class FigurePanel {
     const progress = (share) => signal.aborted || this.#showProgress(share);
     try {
       this.showNote('Loading the figure …');
+      const download = asked.then((viewer) => downloadFigure(viewer, signal, progress));
+      download.catch(() => {}); // handled below
       await nextPaint(); // the person sees all else before the figure keeps the page busy
       const probe = probeRenderer(); // takes long, so it runs beside all else
-      const download = asked.then((viewer) => downloadFigure(viewer, signal, progress));
       const [viewer, files, { FigureScene }, renderer] = await Promise.all([asked, download, import('./scene.js'), probe]);
       if (this.#signal.aborted) return;
       scene ||= new FigureScene($('figure'), isSoftware(renderer));

@@ -20,7 +20,7 @@ export class LabelTrack {
     range.listen(this.refresh);
     onThemeChange(this.refresh, signal);
     onResize(this.#canvas, this.refresh, signal);
-    this.#show();
+    signal.addEventListener('abort', () => this.close());
   }
 
   /** Compare with the labels of a file; a file that has none is refused in a sentence. */
@@ -84,20 +84,4 @@ export class LabelTrack {
     }
     context.restore();
   }
-}
-
-/** Wire the buttons once. `track()` is that of the result on screen. */
-export function addLabelTrack(track) {
-  $('labels-open').addEventListener('change', ({ target }) => {
-    const [file] = target.files;
-    if (file) track()?.open(file);
-    target.value = '';
-  });
-  $('labels-open').parentElement.addEventListener('keydown', (event) => {
-    if (event.key !== 'Enter' && event.key !== ' ') return;
-    event.preventDefault();
-    event.stopPropagation();
-    $('labels-open').click();
-  });
-  $('labels-close').addEventListener('click', () => track()?.close());
 }

@@ -4,7 +4,6 @@ import * as api from '../service/api.js';
 import { $, make } from '../dom.js';
 import { download } from './download.js';
 import { addKeyFrameList } from './key_frame_list.js';
-import { offerEngines } from './export_panel.js';
 
 /** Wire the links once. `shown()` is as for `download`; null while there is no result. Answers a function that points them at it. */
 export function addExportMenu(shown) {
@@ -28,6 +27,11 @@ export function addExportMenu(shown) {
     download(shown, 'clips', choices, note);
   });
 
+  $('export-open').addEventListener('click', async () => {
+    const { openExportPanel } = await import('./export_panel.js');
+    if (shown()) openExportPanel(shown);
+  });
+
   addKeyFrameList(() => download(shown, 'keyframes', {}, note));
 
   /** Have a link download an export; the address is there too, to be copied. */
@@ -39,8 +43,7 @@ export function addExportMenu(shown) {
 
   /** Fill the menu from the service's list. */
   async function offerExports() {
-    const { exports = [], engines = [] } = await api.exports().catch(() => ({}));
-    offerEngines(engines);
+    const { exports = [] } = await api.exports().catch(() => ({}));
     for (const { path, title, description } of exports) {
       if (path === 'clips') continue; // the button beside the menu
       const link = wire(make('a', {}, make('strong', {}, title), make('span', {}, description)), path);

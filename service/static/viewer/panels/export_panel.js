@@ -12,12 +12,25 @@ import { download } from './download.js';
 const KEY = 'caesura.export';
 const QUIET = 200; // ms after the last change before the names are asked for
 
-let engines = [];
+let engines = null; // that the service knows, once it has said so
 let asked = 0;
 
-/** Wire the panel once. `shown()` is as for `download`, with the segments and the index of the current one; null without a result. */
-export function addExportPanel(shown) {
+/** Open the panel. `shown()` is as for `download`, with the segments and the index of the current one. */
+export async function openExportPanel(shown) {
   const form = $('export-form');
+  if (!engines) {
+    engines = []; // a second press while the service is asked wires nothing again
+    await offerEngines();
+    wire(shown, form);
+  }
+  set(form, stored(KEY, {}));
+  note('');
+  showAdvice();
+  $('export-dialog').showModal();
+  preview(shown, form);
+}
+
+function wire(shown, form) {
   let timer;
   const changed = () => {
     showAdvice();
@@ -27,7 +40,6 @@ export function addExportPanel(shown) {
   };
   form.addEventListener('input', changed);
   form.elements.engine.addEventListener('change', () => set(form, engines.find(({ name }) => name === form.elements.engine.value).options));
-  $('export-open').addEventListener('click', () => open(shown, form));
   form.addEventListener('submit', (event) => {
     event.preventDefault();
     download(shown, 'clips', choices(form, shown()), note);
@@ -35,19 +47,10 @@ export function addExportPanel(shown) {
   $('export-close').addEventListener('click', () => $('export-dialog').close());
 }
 
-/** Take over the service's list of programs. */
-export function offerEngines(list) {
-  engines = list;
-  $('export-form').elements.engine.replaceChildren(...list.map(({ name, title }) => make('option', { value: name }, title)));
-}
-
-function open(shown, form) {
-  if (!shown()) return;
-  set(form, stored(KEY, {}));
-  note('');
-  showAdvice();
-  $('export-dialog').showModal();
-  preview(shown, form);
+/** Offer the programs that the service lists. */
+async function offerEngines() {
+  ({ engines } = await api.exports().catch(() => ({ engines })));
+  $('export-form').elements.engine.replaceChildren(...engines.map(({ name, title }) => make('option', { value: name }, title)));
 }
 
 const note = (sentence) => { $('export-note').textContent = sentence; };

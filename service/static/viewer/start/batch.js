@@ -14,7 +14,7 @@ const SENT = 0.2; // of the bar of a row is the sending
 const KEY = 'caesura.batch';
 const AWAY = 'The service does not answer. The page tries again.';
 
-export const BATCH_ADDRESS = '/#batch';
+const ADDRESS = '/#batch';
 
 let batch = null; // `{ title, rows }`; a row is `{ name, id, animation, said, share, problem, done }`, and its elements while on screen
 let ways = {};
@@ -35,7 +35,7 @@ export async function startBatch(title, items) {
   batch = { title, rows: items.map(({ name }) => ({ name, said: 'Waiting' })) };
   const left = items.map((item, place) => ({ item, row: batch.rows[place] }));
   remember();
-  history.pushState(null, '', BATCH_ADDRESS);
+  history.pushState(null, '', ADDRESS);
   showBatch();
   const work = async () => { while (left.length) await send(left.shift()); };
   await Promise.all(Array.from({ length: AT_ONCE }, work));

@@ -11,22 +11,20 @@ const REST = 2; // so many times as long as a picture takes to draw passes until
 
 const stillness = matchMedia('(prefers-reduced-motion: reduce)');
 
-let asked = false; // that it is shown at all
+const asked = () => document.body.dataset.view === 'start';
 let paused = stillness.matches;
 let stage = null; // what is drawn with, once it is loaded: `{ scene, sample }`
 let position = 0;
 
-/** Show the demonstration, or leave it: then nothing is drawn. */
-export async function showDemonstration(shown) {
-  asked = shown;
-  if (!shown) return;
+/** Show the demonstration; on other views nothing is drawn. */
+export async function showDemonstration() {
   const { demonstration: sample } = await sampleIndex() ?? {};
   $('demonstration').hidden = !sample;
   if (!sample || stage) return run();
   list(sample);
   await nextPaint();
   await new Promise((done) => setTimeout(done, 200)); // a person who opens something at once waits for no figure
-  if (!asked || stage) return;
+  if (!asked() || stage) return;
   stage = { sample, scene: null };
   stage.scene = await load(sample).catch(() => null); // without WebGL the strip and the clips say it
   document.body.classList.toggle('no-demonstration', !stage.scene);
@@ -82,7 +80,7 @@ function run() {
   let last = performance.now();
   const step = (now) => {
     const { scene, sample: { segments, frames, frame_rate: rate } } = stage;
-    running = asked && !paused && !document.hidden;
+    running = asked() && !paused && !document.hidden;
     position = (position + (Math.min(200, now - last) / 1000) * rate) % frames;
     last = now;
     const { motion } = show(segments, frames);

@@ -11,7 +11,7 @@ export class Opening {
   #page; #task = new AbortController();
 
   /**
-   * `page.show(result, status, viewer)` shows a result; `page.refuse(problem, name, again)` says why there is none; `page.leave()`
+   * `page.prepare()` fetches what shows a result, and `page.show(result, status, viewer)` shows it; `page.refuse(problem, name, again)` says why there is none; `page.leave()`
    * goes where a person who waits no longer goes.
    */
   constructor(page) { this.#page = page; }
@@ -59,6 +59,7 @@ export class Opening {
     $('subject').textContent = '';
     resetProgress(name);
     showView('waiting', name);
+    this.#page.prepare().catch(() => {}); // while the result is on its way
     this.#onCancel(async () => {});
     try { await way(signal); } catch (problem) { this.#page.refuse(problem, name, again); }
   }
@@ -84,6 +85,7 @@ export class Opening {
     const viewer = api.viewer(id); // fetched beside the result, as the figure takes longest
     viewer.catch(() => {}); // the figure panel shows the problem
     const result = await untilAnswered(() => api.result(id, revisionInAddress() ?? status.revision), signal, showPause);
+    await this.#page.prepare();
     if (!signal.aborted) this.#page.show(result, status, viewer);
   }
 }
