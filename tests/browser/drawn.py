@@ -39,6 +39,19 @@ def ellipsoid() -> bytes:
     return stored.getvalue()
 
 
+def bar_that_turns() -> bytes:
+    """An NPZ: a bar that bends and straightens twice, the second time turned by a right angle and some steps away."""
+    places, triangles = bar()
+    half = FRAMES // 2
+    bend = np.sin(np.pi * np.arange(half) / half)[:, None] * np.maximum(places[:, 0] - 0.4, 0) ** 2
+    once = np.stack([places + bend[frame][:, None] * np.array([0, 1, 0]) for frame in range(half)])
+    again = once[..., [2, 1, 0]] * np.array([1, 1, -1]) + np.array([2, 0, 1])
+    stored = io.BytesIO()
+    vertices = np.concatenate([once, again]).astype(np.float32)
+    np.savez(stored, vertices=vertices, triangles=triangles, frame_rate=RATE)
+    return stored.getvalue()
+
+
 def jointed_bar(*, mirrored: bool) -> bytes:
     """A GLB: a tube of two materials on two joints, the outer of which bends; the inner may mirror it all."""
     places, triangles = bar()

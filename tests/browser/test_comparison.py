@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.drawn import body, picture
+from tests.browser.drawn import FRAMES, bar_that_turns, body, picture
 from tests.browser.journeys import opened
 
 pytestmark = pytest.mark.timeout(240)
@@ -84,3 +84,23 @@ def test_the_other_repeats_are_laid_over_where_the_current_one_stands(result: Pa
     alone = picture(result)
     assert (np.abs(laid_over - alone).max(axis=2) > 20).sum() > 50
     expect(result.locator("#loop")).not_to_be_checked()
+
+
+def test_bodies_that_are_compared_face_the_same_way(page: Page) -> None:
+    """A bar bends twice, the second time turned by a right angle and elsewhere: side by side it is the same picture."""
+    page.set_viewport_size({"width": 1400, "height": 800})
+    uploaded = page.request.post("/v1/animations?name=turns.npz", data=bar_that_turns()).json()
+    asked = page.request.post("/v1/segmentations", data={"animation": uploaded["id"], "motions": 1}).json()
+    address = f"/v1/segmentations/{asked['id']}"
+    page.request.get(address, headers={"Prefer": "wait=60"})
+    halves = [{"start": at, "end": at + FRAMES // 2, "motion": 0, "name": "bend"} for at in (0, FRAMES // 2)]
+    saved = page.request.post(f"{address}/revisions", data={"segments": halves}, headers={"If-Match": '"0"'})
+    assert saved.ok, saved.text()
+    page.goto(f"/view/{asked['id']}#frame={FRAMES // 4}")
+    expect(page.locator("#figure")).to_have_attribute("data-shown", "vertices")
+    page.locator("#compare").select_option("beside")
+    expect(page.locator("#pair p")).to_have_count(2)
+    seen = body(picture(page, 480, 300))
+    left, right = seen[:, :240], seen[:, 240:]
+    assert left.sum() > 500
+    assert (left != right).sum() < 0.05 * left.sum()

@@ -73,8 +73,8 @@ export class FigurePanel {
   show() {
     if (!this.#shown) return;
     const request = ++this.#request;
-    const poses = this.#poses.poses.map(({ position, motion, aligned }) => ({ position, aligned, colouring: this.#colourOf(motion) }));
-    const ghosts = this.#poses.ghosts.map(({ position, motion, aligned }) => ({ position, aligned, colouring: motionColour(motion) }));
+    const poses = this.#poses.poses.map(({ position, motion, start }) => ({ position, start, colouring: this.#colourOf(motion) }));
+    const ghosts = this.#poses.ghosts.map(({ position, motion, start }) => ({ position, start, colouring: motionColour(motion) }));
     const missing = scene.pose(poses, ghosts);
     if (!missing) return this.#clearNote();
     this.#noteTimer ||= setTimeout(() => this.showNote('Loading …'), LATE);

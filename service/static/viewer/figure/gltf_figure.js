@@ -92,6 +92,9 @@ class GltfFigure {
     return out.divideScalar(Math.max(1, this.#points.length));
   }
 
+  /** Places of the body: x, y, z of each of its joints, or of its parts. */
+  places() { return this.#points.flatMap((point) => this.#at.setFromMatrixPosition(point.matrixWorld).toArray()); }
+
   box() {
     const box = new Box3();
     if (this.#skeleton) for (const joint of this.#points) box.expandByPoint(this.#at.setFromMatrixPosition(joint.matrixWorld));

@@ -1,11 +1,12 @@
 // The 3D scene: camera, light, floor and one figure in one pose, or in two side by side. It draws only after a change.
 
-import { MeshLambertMaterial, Scene, Vector3, WebGLRenderer } from 'three';
+import { Group, MeshLambertMaterial, Scene, Vector3, WebGLRenderer } from 'three';
 import { FigureCamera } from './camera.js';
 import { onResize, onThemeChange, styleValue } from '../dom.js';
 import { skyEnvironment } from './environment.js';
 import { Floor } from './floor.js';
 import { createGltfFigure } from './gltf_figure.js';
+import { seenFromAbove, turnBetween } from './heading.js';
 import { Light } from './light.js';
 import { setEdge, SurfaceShading } from './surface_shading.js';
 import { createVertexFigure } from './vertex_figure.js';
@@ -16,7 +17,7 @@ const FINEST = 2; // pixels to a CSS pixel; nobody sees more
 
 export class FigureScene {
   #renderer; #scene = new Scene(); #camera; #floor = new Floor(); #light = new Light(); #requested = false;
-  #middle = new Vector3(); #anchor = new Vector3(); #shift = new Vector3(); #poses = []; #ghosts = []; #size = { width: 1, height: 1 }; #software;
+  #middle = new Vector3(); #anchor = new Vector3(); #stand = new Group(); #headings = new Map(); #poses = []; #ghosts = []; #size = { width: 1, height: 1 }; #software;
 
   /**
    * `software`: the processor draws, so the picture has no anti-aliasing and one pixel for each CSS pixel. `turns`: whether a
@@ -32,7 +33,7 @@ export class FigureScene {
     this.#renderer = rendererOn(canvas, software);
     this.#camera = new FigureCamera(canvas, () => this.draw(), turns);
     if (!software) Object.assign(this.#scene, { environment: skyEnvironment(this.#renderer), environmentIntensity: MIRRORED });
-    this.#scene.add(this.#light.object, this.#camera.camera, this.#floor.object);
+    this.#scene.add(this.#light.object, this.#camera.camera, this.#floor.object, this.#stand);
     onResize(canvas.parentElement, () => this.#fit());
     onThemeChange(() => this.#theme());
     this.#theme();
@@ -52,7 +53,7 @@ export class FigureScene {
     this.clear();
     this.strain = strain;
     this.figure = figure;
-    this.#scene.add(figure.object);
+    this.#stand.add(figure.object);
     this.reframe();
   }
 
@@ -65,11 +66,12 @@ export class FigureScene {
 
   clear() {
     if (!this.figure) return;
-    this.#scene.remove(this.figure.object);
+    this.#stand.remove(this.figure.object);
+    this.#headings.clear();
+    this.#standStill();
     this.figure.dispose();
     this.strain.dispose();
     this.figure = null;
-    this.#shift.set(0, 0, 0);
     this.#poses = [];
     this.draw();
   }
@@ -77,13 +79,15 @@ export class FigureScene {
   /**
    * Show one pose, or two side by side: `{ position, colouring }` each, in frames and as in `SurfaceShading.colourBy`. The
    * figure is posed when it is drawn, so that of many calls in one screen frame only the last costs anything. `ghosts` are more
-   * poses, seen through. Those that are `aligned` stand where the first pose stands. Answers null, or a promise of the blocks that must be fetched first.
+   * poses, seen through. A pose whose motion has a `start` stands where the first pose stands, and has turned since then as far as that
+   * one has since its own: bodies that are compared face the same way at first. Answers null, or a promise of the blocks that must be fetched first.
    */
   pose(poses, ghosts = []) {
     this.#poses = poses;
     this.#ghosts = ghosts;
     this.draw();
-    const missing = [...poses, ...ghosts].map(({ position, colouring }) => [Math.floor(position), colouring === 'strain'])
+    const wanted = ({ position, start = position, colouring }) => [[Math.floor(position), colouring === 'strain'], [Math.floor(start), false]];
+    const missing = [...poses, ...ghosts].flatMap(wanted)
       .filter(([frame, strained]) => !this.figure.ready(frame) || (strained && !this.strain.ready(frame)));
     if (!missing.length) return null;
     return Promise.all(missing.flatMap(([frame]) => [this.figure.fetch(frame), this.strain.fetch(frame)]));
@@ -92,7 +96,7 @@ export class FigureScene {
   /** Move the camera back until it sees the whole figure. */
   reframe() {
     if (!this.figure) return;
-    this.#unshift();
+    this.#standStill();
     const box = this.figure.box();
     const size = box.getSize(new Vector3());
     const radius = size.length() / 2 || 1;
@@ -113,6 +117,7 @@ export class FigureScene {
     if (!this.figure) return;
     this.figure.object.rotation.x = upIsZ ? -Math.PI / 2 : 0;
     this.figure.object.updateMatrixWorld(true);
+    this.#headings.clear();
     this.reframe();
   }
 
@@ -197,26 +202,43 @@ export class FigureScene {
     }
     this.#floor.object.visible = this.#renderer.autoClear = true;
     this.figure.meshes.forEach((mesh, index) => { mesh.material = worn[index]; });
-    this.#unshift();
+    this.#standStill();
   }
 
-  /** Pose the figure, and stand it where the first pose stands if it is `aligned`. */
-  #pose({ position, aligned }, first) {
-    this.#unshift();
+  /** Pose the figure; if its motion has a `start`, stand it where the first pose stands, and turn it as that one faced at first. */
+  #pose({ position, start }, first) {
+    this.#standStill();
+    const turn = first || start === undefined ? 0 : this.#turnTo(start, this.#poses[0].start);
     this.figure.pose(position);
     this.figure.centre(this.#middle);
     if (first) this.#anchor.copy(this.#middle);
-    if (!aligned || first) return;
-    this.#shift.subVectors(this.#anchor, this.#middle).setY(0);
-    this.figure.object.position.add(this.#shift);
-    this.figure.pose(position);
-    this.#middle.add(this.#shift);
+    if (first || start === undefined) return;
+    this.#stand.rotation.y = turn;
+    this.#stand.position.copy(this.#middle).applyEuler(this.#stand.rotation).sub(this.#anchor).negate().setY(0);
+    this.#stand.updateMatrixWorld(true);
+    this.#middle.set(this.#anchor.x, this.#middle.y, this.#anchor.z);
+  }
+
+  /** Radians that the body at frame `start` turns until it faces as at frame `reference`; 0 until both are there. */
+  #turnTo(start, reference) {
+    const headings = [start, reference].map((frame) => this.#heading(frame));
+    return headings.every(Boolean) ? turnBetween(...headings) : 0;
+  }
+
+  #heading(frame) {
+    if (!this.#headings.has(frame) && this.figure.ready(frame)) {
+      this.figure.pose(frame);
+      this.#headings.set(frame, seenFromAbove(this.figure.places()));
+    }
+    return this.#headings.get(frame);
   }
 
   /** Put the figure back to where its take has it. */
-  #unshift() {
-    this.figure.object.position.sub(this.#shift);
-    this.#shift.set(0, 0, 0);
+  #standStill() {
+    if (this.#stand.position.lengthSq() + this.#stand.rotation.y ** 2 === 0) return; // to go through all joints takes time
+    this.#stand.position.set(0, 0, 0);
+    this.#stand.rotation.y = 0;
+    this.#stand.updateMatrixWorld(true);
   }
 
   /** Pose and colour the figure; light and floor follow it, and with the first pose the camera does. */

@@ -6,6 +6,8 @@ import { comparedPoses } from '../timeline/comparison.js';
 
 const MOST_GHOSTS = 6;
 
+const poseOf = ({ position, segment: { motion, start } }) => ({ position, motion, start });
+
 export class ShownPoses {
   #result;
 
@@ -20,21 +22,22 @@ export class ShownPoses {
   /** What stands under poses side by side; null where there is one. */
   get labels() { return this.pair ? cutLabels(this.pair) : this.#compared('beside'); }
 
-  /** `{ position, motion, aligned }` of each, the current one first where it is alone. */
+  /** `{ position, motion, start }` of each, the current one first where it is alone; `start` is the first frame of a repeat that is compared. */
   get poses() {
     if (this.pair) {
       const [before, after] = this.pair;
       return [{ position: before.end - 1, motion: before.motion }, { position: after.start, motion: after.motion }];
     }
     const compared = this.#compared('beside');
-    if (compared) return compared.map(({ position, segment: { motion } }) => ({ position, motion, aligned: true }));
-    return [{ position: this.#position, motion: this.#segment.motion }];
+    if (compared) return compared.map(poseOf);
+    const current = this.#compared('over')?.find((item) => item.current);
+    return [current ? poseOf(current) : { position: this.#position, motion: this.#segment.motion }];
   }
 
   /** The other repeats laid over, or the key-frames of the current segment, evenly chosen; none where several poses are shown. */
   get ghosts() {
     const overlaid = this.#compared('over');
-    if (overlaid) return overlaid.filter(({ current }) => !current).map(({ position, segment: { motion } }) => ({ position, motion, aligned: true }));
+    if (overlaid) return overlaid.filter(({ current }) => !current).map(poseOf);
     if (this.pair || !$('ghosts').checked || this.#compared('beside')) return [];
     const { start, end, motion } = this.#segment;
     const keys = this.#result.document.key_frames.filter(({ frame }) => frame >= start && frame < end);

@@ -82,11 +82,23 @@ class VertexFigure {
   /** The middle of the body, from a few hundred of its vertices. */
   centre(out) {
     const p = this.#positions.array;
-    const step = 3 * Math.max(1, Math.floor(p.length / 3 / 500));
+    const step = this.#step;
     let n = 0;
     out.set(0, 0, 0);
     for (let i = 0; i < p.length; i += step) { out.x += p[i]; out.y += p[i + 1]; out.z += p[i + 2]; n += 1; }
     return out.divideScalar(n * LARGEST).applyMatrix4(this.mesh.matrixWorld);
+  }
+
+  get #step() { return 3 * Math.max(1, Math.floor(this.#positions.count / 500)); }
+
+  /** Places of the body: x, y, z of each of the same vertices. */
+  places() {
+    const at = new Vector3();
+    const found = [];
+    for (let i = 0; i < this.#positions.count; i += this.#step / 3) {
+      found.push(...at.fromBufferAttribute(this.#positions, i).applyMatrix4(this.mesh.matrixWorld).toArray());
+    }
+    return found;
   }
 
   box() {
