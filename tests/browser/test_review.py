@@ -87,3 +87,23 @@ def test_the_method_and_its_settings_are_under_advanced(page: Page, own: Path) -
     window.fill("many")
     page.locator("#apply-settings").click()
     expect(page.locator("#controls-note")).to_contain_text("keyframe_window_seconds")
+
+
+def test_what_the_papers_method_saw_is_shown_where_it_was_asked_for(page: Page, own: Path) -> None:
+    """The curve of Eq. 5 between neighbouring motions, whose lowest points are cuts, and the mean strains of Eq. 4."""
+    opened(page, own)
+    page.locator("#advanced-open").click()
+    expect(page.locator("#details")).to_be_hidden()
+    page.locator("#method").select_option("joint-entropy")
+    expect(page.locator("#controls-note")).to_contain_text("The take now has")
+    page.locator("#setting-details").check()
+    page.locator("#apply-settings").click()
+    expect(page.locator("#variances")).to_be_visible()
+    identifier = page.url.split("/view/")[1].split("#")[0]
+    found = page.request.get(f"/v1/segmentations/{identifier}/result.json").json()
+    expect(page.locator("#variances .line")).to_have_count(len(found["variances"]))
+    page.locator("#variances rect").last.click()
+    expect(page.locator("#frame")).to_have_value(str(found["variances"][-1]["boundary"]))
+    shown = [float(text) for text in page.locator("#clusters .long").all_text_contents()]
+    assert shown == [round(cluster["mean_strain"], 3) for cluster in found["clusters"]]
+    assert len(shown) > 1

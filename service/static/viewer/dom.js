@@ -13,6 +13,14 @@ export function make(tag, properties = {}, ...children) {
   return element;
 }
 
+/** An element of a drawing: `makeSvg('path', { class: 'line', d })`. */
+export function makeSvg(tag, attributes, text = '') {
+  const element = document.createElementNS(document.querySelector('svg').namespaceURI, tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.textContent = text;
+  return element;
+}
+
 /** Words that only a screen reader reads. */
 export const screenReaderText = (text) => make('span', { className: 'unseen' }, text);
 

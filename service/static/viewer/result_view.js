@@ -1,6 +1,7 @@
 // A result on screen: figure, curve, segments and lists, tied together by one playhead and one visible range.
 
 import { Playhead } from './timeline/playhead.js';
+import { showDetails } from './panels/method_details.js';
 import { showParameters } from './panels/segmentation_form.js';
 import { onFrameNumbering } from './number_format.js';
 import { EnergyCurve } from './timeline/energy_curve.js';
@@ -68,6 +69,7 @@ export class Result {
     this.labelTrack?.show(document);
     this.#list.show(document);
     this.#keyFrames.show(document);
+    this.#showDetails();
     showCounts(document);
     this.#showMoment();
   }
@@ -141,9 +143,14 @@ export class Result {
     this.#list.show(document);
     this.#keyFrames.show(document);
     showParameters(document, status.motions);
+    this.#showDetails();
     this.review.show();
     this.selected(-1);
     this.#onChange();
+  }
+
+  #showDetails() {
+    showDetails(this.document, (frame) => { this.playhead.seek(frame); this.range.reveal(frame); });
   }
 
   /** Frames are counted from the other number. */

@@ -52,13 +52,13 @@ function fitted(segment) {
   return { ...segment, repeats: bounds.slice(1).map((to, i) => ({ start: bounds[i], end: to })) };
 }
 
-/** The same segments with the repetitions that the service found in those it has `saved`. */
+/** The same segments with the repetitions and the best loops that the service has for those it has `saved`. */
 export function withRepeats(segments, saved) {
-  const found = new Map(saved.map((segment) => [`${segment.start} ${segment.end}`, segment.repeats]));
+  const found = new Map(saved.map((segment) => [`${segment.start} ${segment.end}`, segment]));
+  const told = ({ repeats, best_loop: loop }) => JSON.stringify([repeats.map(({ start }) => start), loop?.start, loop?.end]);
   return segments.map((segment) => {
-    const repeats = found.get(`${segment.start} ${segment.end}`);
-    const same = !repeats || String(repeats.map(({ start }) => start)) === String(segment.repeats.map(({ start }) => start));
-    return same ? segment : { ...segment, repeats };
+    const kept = found.get(`${segment.start} ${segment.end}`);
+    return !kept || told(kept) === told(segment) ? segment : { ...segment, repeats: kept.repeats, best_loop: kept.best_loop };
   });
 }
 

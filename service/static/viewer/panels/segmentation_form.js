@@ -3,7 +3,7 @@
 
 import * as api from '../service/api.js';
 import { waitUntilDone } from '../service/job_status.js';
-import { $, make } from '../dom.js';
+import { $, make, makeSvg } from '../dom.js';
 import { count } from '../number_format.js';
 import { addAdvancedSettings, offerSettings, showSettings } from './advanced_settings.js';
 
@@ -128,13 +128,6 @@ const WIDE = 280;
 const HIGH = 64;
 const EDGE = { left: 12, right: 12, top: 10, bottom: 18 };
 
-const svg = (tag, attributes, text = '') => {
-  const element = document.createElementNS($('scores').querySelector('svg').namespaceURI, tag);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-  element.textContent = text;
-  return element;
-};
-
 /** Draw `scores` with `chosen` marked; hidden where there is nothing to compare. `choose(motions)` is called on a click. */
 function showScores(scores, chosen, choose) {
   $('scores').hidden = scores.length < 2;
@@ -151,14 +144,14 @@ function showScores(scores, chosen, choose) {
   chart.setAttribute('viewBox', `0 0 ${WIDE} ${HIGH}`);
   chart.setAttribute('aria-label', `Error for each number of motions: ${scores.map(({ motions, score }) => `${motions}: ${Math.round(100 * score)} %`).join(', ')}. This result has ${chosen}.`);
   chart.replaceChildren(
-    svg('path', { class: 'base', d: `M0 ${HIGH - EDGE.bottom + 0.5}H${WIDE}` }),
-    ...(at < 0 ? [] : [svg('path', { class: 'drop-line', d: `M${x(at)} ${y(scores[at].score)}V${HIGH - EDGE.bottom}` })]),
-    svg('path', { class: 'line', d: line }),
-    ...scores.map(({ score }, i) => svg('circle', { class: i === at ? 'dot chosen' : 'dot', cx: x(i), cy: y(score), r: i === at ? 4.5 : 2.5 })),
-    ...scores.map(({ motions }, i) => (numbered(i) ? svg('text', { x: x(i), y: HIGH - 4, class: i === at ? 'chosen' : '' }, motions) : null)).filter(Boolean),
+    makeSvg('path', { class: 'base', d: `M0 ${HIGH - EDGE.bottom + 0.5}H${WIDE}` }),
+    ...(at < 0 ? [] : [makeSvg('path', { class: 'drop-line', d: `M${x(at)} ${y(scores[at].score)}V${HIGH - EDGE.bottom}` })]),
+    makeSvg('path', { class: 'line', d: line }),
+    ...scores.map(({ score }, i) => makeSvg('circle', { class: i === at ? 'dot chosen' : 'dot', cx: x(i), cy: y(score), r: i === at ? 4.5 : 2.5 })),
+    ...scores.map(({ motions }, i) => (numbered(i) ? makeSvg('text', { x: x(i), y: HIGH - 4, class: i === at ? 'chosen' : '' }, motions) : null)).filter(Boolean),
     ...scores.map(({ motions, score }, i) => {
-      const area = svg('rect', { x: x(i) - step / 2, y: 0, width: step, height: HIGH });
-      area.append(svg('title', {}, `${count(motions, 'motion')}: ${Math.round(100 * score)} % error`));
+      const area = makeSvg('rect', { x: x(i) - step / 2, y: 0, width: step, height: HIGH });
+      area.append(makeSvg('title', {}, `${count(motions, 'motion')}: ${Math.round(100 * score)} % error`));
       area.addEventListener('click', () => choose(motions));
       return area;
     }),
