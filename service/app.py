@@ -30,6 +30,7 @@ from caesura.service.routes import (
     health,
     methods_and_limits,
     pages,
+    pictures,
     results,
     resumable_uploads,
     revisions,
@@ -43,8 +44,8 @@ from caesura.service.uploads.content_encoding import InflateMiddleware
 from caesura.service.webhooks.delivery_loop import DeliveryLoop
 
 ROUTES = (
-    animations, resumable_uploads, segmentations, batches, results, revisions, clips, collections, collection_takes,
-    collection_proposals, collection_searches, callback_secret, session, methods_and_limits, health,
+    animations, resumable_uploads, segmentations, batches, results, pictures, revisions, clips, collections,
+    collection_takes, collection_proposals, collection_searches, callback_secret, session, methods_and_limits, health,
 )  # fmt: skip
 
 EXPOSED = (
@@ -94,7 +95,7 @@ def create_app(settings: ServiceSettings) -> FastAPI:
         app.add_middleware(
             CORSMiddleware,
             allow_origins=settings.page_origins,
-            allow_methods=("GET", "HEAD", "POST", "PATCH", "DELETE"),
+            allow_methods=("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE"),
             allow_headers=("*",),
             expose_headers=EXPOSED,
         )

@@ -55,6 +55,14 @@ _LATER: Answers = {
 FILE = _file_answers("The bytes.", *FILE_TYPES)
 MODEL = _file_answers("The bytes.", "model/gltf-binary")
 BLOCKS = _file_answers("The bytes.")
+_UNDRAWN: Answers = {204: {"description": "There is none yet."}}
+
+PICTURE_FILE = _file_answers("The picture.", "image/webp", "image/png", "image/jpeg") | _UNDRAWN
+PICTURE_SHEET: Answers = {
+    206: {"description": "The range of them that was asked for.", "headers": _TAG, "content": _json("Pictures")},
+    304: _UNCHANGED,
+    **_UNDRAWN,
+}
 CLIPS = _file_answers("The file with its clips, or a zip of them.", "model/gltf-binary", "application/zip") | _LATER
 KEY_POSES = _file_answers("The file with its key poses.", "model/gltf-binary") | _LATER
 

@@ -217,6 +217,14 @@ REVISION_BODY: dict[str, Any] = {
     },
 }
 
+PICTURES_BODY: dict[str, Any] = {
+    "requestBody": {
+        "required": True,
+        "description": "One sheet of pictures, eight in a row, and one of them by itself.",
+        "content": {"application/json": _schema("Pictures")},
+    },
+}
+
 TAKE_TAG: dict[str, Any] = {
     "parameters": [
         {

@@ -24,17 +24,24 @@ class ResultFiles:
 
     def write(self, segmentation: str, form: str, record: ExportRecord) -> bool:
         """Keep where the file is, or why there is none; False where the segmentation was deleted meanwhile."""
-        key = redis_keys.segmentation_key(segmentation)
+        return self._keep(segmentation, form, record, instead=True)
+
+    def add(self, segmentation: str, form: str, record: ExportRecord) -> bool:
+        """The same where there is no such file yet; False where there is."""
+        return self._keep(segmentation, form, record, instead=False)
+
+    def _keep(self, segmentation: str, form: str, record: ExportRecord, *, instead: bool) -> bool:
+        key, file = redis_keys.segmentation_key(segmentation), redis_keys.export_key(segmentation, form)
 
         def keep(pipe: Pipeline) -> None:
-            exists = pipe.exists(key)
+            takes = pipe.exists(key) and (instead or not pipe.exists(file))
             pipe.multi()
-            if exists:
-                pipe.set(redis_keys.export_key(segmentation, form), record.model_dump_json())
+            if takes:
+                pipe.set(file, record.model_dump_json())
                 pipe.sadd(redis_keys.exports_key(segmentation), form)
                 pipe.publish(redis_keys.channel(segmentation), b"export")
 
-        return bool(self._redis.transaction(keep, key))
+        return bool(self._redis.transaction(keep, key, file))
 
     def delete(self, segmentation: str, form: str) -> None:
         """Forget a file, or why there is none; its blob is the caller's to delete before."""

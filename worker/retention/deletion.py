@@ -15,7 +15,7 @@ from caesura.worker.records.connection import await_writable
 from caesura.worker.records.record_types import AnimationRecord
 from caesura.worker.store.blobs import Blobs
 
-RESULT_FILES_WITH_UPLOAD = ("clips", "keyframes")
+RESULT_FILES_WITH_UPLOAD = ("clips", "keyframes", "pictures", "poster")
 """Forms that hold what was uploaded: they go with it."""
 
 WRITES_SECONDS = 3.0
