@@ -14,7 +14,7 @@ import { writeTag } from './palette.js';
 import { FigurePanel } from './figure/figure_panel.js';
 import { ShownPoses } from './figure/shown_poses.js';
 import { CutReview } from './panels/cut_review.js';
-import { segmentIndexAt } from './editing/segment_edits.js';
+import { portraitFrame, segmentIndexAt } from './editing/segment_edits.js';
 import { VisibleRange } from './timeline/visible_range.js';
 import { SegmentTrack } from './timeline/segment_track.js';
 import { Overview } from './timeline/overview.js';
@@ -35,7 +35,7 @@ export class Result {
     this.playhead.speed = Number($('speed').value);
     this.range = new VisibleRange(document.frames);
     this.#setDocument(document);
-    this.thumbnails = new Thumbnails(() => this.figurePanel.scene, () => this.playhead.playing, signal);
+    this.thumbnails = new Thumbnails(() => this.figurePanel.dressedScene, () => this.playhead.playing, signal);
     this.#list = new SegmentList(this);
     this.#keyFrames = new KeyFrameList(this, signal);
     this.curve = new EnergyCurve($('curve'), document, this.range, signal);
@@ -133,6 +133,7 @@ export class Result {
   /** Begin to edit a document; editing the one before ends. */
   #startEditing(document, status) {
     this.status = status;
+    this.thumbnails.open(document.id, portraitFrame(longestOf(document.segments)), lookOnly());
     this.#editing?.abort();
     this.#editing = new AbortController();
     this.editor?.close();
@@ -186,4 +187,10 @@ export class Result {
     writeTag($('now-motion'), this.document.segments[index]);
     this.#onChange();
   }
+}
+
+/** The segment that stands for a take: the longest of those that are kept. */
+function longestOf(segments) {
+  const kept = segments.filter(({ discard }) => !discard);
+  return (kept.length ? kept : segments).reduce((best, one) => (one.end - one.start > best.end - best.start ? one : best));
 }

@@ -121,6 +121,12 @@ export function segmentIndexAt(segments, frame) {
   return low;
 }
 
+/** The frame that stands for a segment: the middle of its middle repetition, for repetitions begin and end where nothing is seen. */
+export function portraitFrame(segment) {
+  const { start, end } = segment.repeats[segment.repeats.length >> 1] ?? segment;
+  return Math.floor((start + end) / 2);
+}
+
 /** Seconds from the first pose of a segment to the first of the next; the last segment ends with the last pose of the take. */
 export const segmentSeconds = ({ frames, frame_rate: rate }, { start, end }) => (Math.min(end, frames - 1) - start) / rate;
 

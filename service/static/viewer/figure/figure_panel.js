@@ -12,7 +12,7 @@ const SOON = 1500; // ms until the panel asks again whether the figure is prepar
 let scene = null; // one for the page: a browser gives out few WebGL contexts
 
 export class FigurePanel {
-  #signal; #poses; #whenShown; #request = 0; #noteTimer = 0; #retryTimer = 0; #shown = false; #colouring = 'own';
+  #signal; #poses; #whenShown; #request = 0; #noteTimer = 0; #retryTimer = 0; #shown = false; #dressed = false; #colouring = 'own';
 
   /**
    * `poses` are the `ShownPoses`: its `poses` side by side, and its `ghosts` over them, seen through.
@@ -26,6 +26,9 @@ export class FigurePanel {
   }
 
   get scene() { return this.#shown ? scene : null; }
+
+  /** The scene, once the figure wears what its author gave it. */
+  get dressedScene() { return this.#dressed ? scene : null; }
 
   /** Whether a frame can be shown without waiting. */
   ready(frame) { return !this.#shown || scene.figure.ready(frame); }
@@ -53,6 +56,7 @@ export class FigurePanel {
       scene.canvas.dataset.shown = viewer.kind;
       this.show();
       if (files.materials) await scene.dress(files.materials()).catch(() => {}); // their plain colours are there
+      this.#dressed = this.#shown;
       this.#whenShown();
     } catch (problem) {
       if (this.#signal.aborted) return;
@@ -103,7 +107,7 @@ export class FigurePanel {
 
   /** Leave the scene to another result. */
   #leave() {
-    this.#shown = false;
+    this.#shown = this.#dressed = false;
     this.#request++;
     clearTimeout(this.#noteTimer);
     clearTimeout(this.#retryTimer);

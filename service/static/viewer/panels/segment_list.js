@@ -4,7 +4,8 @@
 import { firstFrameNumber } from '../number_format.js';
 import { $, scrollToRow } from '../dom.js';
 import { store, stored } from '../local_storage.js';
-import { portraitCanvas, portraitFrame } from '../figure/thumbnails.js';
+import { portraitFrame } from '../editing/segment_edits.js';
+import { portraitCanvas } from '../figure/thumbnails.js';
 import { addRovingFocus, setTabStop } from '../roving_focus.js';
 import { motionLength, motionRow, segmentRow } from './segment_row.js';
 
@@ -102,7 +103,7 @@ export class SegmentList {
   }
 
   /** The picture of a segment. */
-  #picture(segment) { return portraitCanvas(this.#result.thumbnails, portraitFrame(segment, this.#document.key_frames)); }
+  #picture(segment) { return portraitCanvas(this.#result.thumbnails, portraitFrame(segment)); }
 
   /** How long a motion is altogether. */
   #updateHead(motion) {

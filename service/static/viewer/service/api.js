@@ -58,6 +58,9 @@ export const result = (id, revision = 0) =>
   call('GET', `/v1/segmentations/${id}/result${revisionQuery(revision)}`, { headers: { Accept: 'application/json' } });
 export const revision = (id, number) => call('GET', `/v1/segmentations/${id}/revisions/${number}`);
 export const revisions = (id) => call('GET', `/v1/segmentations/${id}/revisions`);
+export const pictures = (id) => call('GET', `/v1/segmentations/${id}/pictures`);
+export const keepPictures = (id, kept) => call('PUT', `/v1/segmentations/${id}/pictures`, json(kept));
+export const posterAddress = (id) => `/v1/segmentations/${id}/poster`;
 export const viewer = (id) => call('GET', `/v1/segmentations/${id}/viewer`);
 export const cancel = (id) => call('DELETE', `/v1/segmentations/${id}`);
 export const segment = (animationId, parameters = {}) =>

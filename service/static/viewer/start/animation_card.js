@@ -12,7 +12,7 @@ export function animationCard(animation, { open, rename, remove }) {
   const strip = make('span', { className: 'strip-place' });
   const card = make('li', { className: 'card' },
     make('button', { type: 'button', className: 'animation', onclick: () => open(animation) }, strip, name,
-      make('span', { className: 'facts' }, animationFacts(animation)), result),
+      make('span', { className: 'facts' }, ...factsApart(animationFacts(animation))), result),
     cardMenu(animation.name, [
       ['Rename', () => rename(animation, (renamed) => { Object.assign(animation, renamed); name.textContent = animation.name; })],
       ['Delete', () => remove(animation, card)],
@@ -47,11 +47,21 @@ async function showResult(animation, strip, facts) {
     if (!id) return;
     const { frames, revision } = await api.status(id);
     const { segments } = await api.revision(id, revision);
+    showPoster(strip.parentElement, id);
     const motions = new Set(segments.map(({ motion }) => motion)).size;
     strip.replaceChildren(segmentStrip(segments, frames));
     facts.replaceChildren(`${count(motions, 'motion')}, ${count(segments.length, 'segment')}`,
       revision ? make('b', { className: 'edited' }, 'edited') : '');
   } catch { /* the card still opens, and then says what is wrong */ }
+}
+
+/** Facts with dots between them; a line may end after a dot, and never within a fact. */
+export const factsApart = (facts) => facts.flatMap((fact, i) => [i ? ' ' : null, make('span', {}, i < facts.length - 1 ? `${fact} ·` : fact)]);
+
+/** Show the picture that is kept with a result; a card of one that nobody has opened yet has none. */
+function showPoster(button, id) {
+  const picture = make('img', { className: 'poster', alt: '', src: api.posterAddress(id) });
+  picture.addEventListener('load', () => { button.classList.add('pictured'); button.append(picture); });
 }
 
 function animationFacts({ format, take_count: takes, duration_seconds: seconds, created }) {
@@ -60,5 +70,5 @@ function animationFacts({ format, take_count: takes, duration_seconds: seconds, 
     seconds !== null && duration(seconds),
     takes > 1 && count(takes, 'take'),
     created && ago(created),
-  ].filter(Boolean).join(' · ');
+  ].filter(Boolean);
 }

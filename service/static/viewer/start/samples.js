@@ -25,5 +25,5 @@ export async function addSamples(open) {
     make('button', { type: 'button', className: 'animation sample', onclick: async () => open([new File([await sampleBytes(sample)], sample.file)]) },
       make('span', { className: 'strip-place' }, segmentStrip(sample.segments, sample.frames)),
       make('strong', {}, sample.title),
-      make('span', { className: 'facts' }, `${sample.description} · ${duration(sample.frames / sample.frame_rate)}`)))));
+      make('span', { className: 'facts' }, `${sample.description} · `, make('span', {}, duration(sample.frames / sample.frame_rate)))))));
 }

@@ -1,7 +1,7 @@
 // What the pointer is over: a cut, a key-frame, or a frame of a segment, in words and as a picture of the pose.
 
 import { $ } from '../dom.js';
-import { portraitFrame } from '../figure/thumbnails.js';
+import { portraitFrame } from '../editing/segment_edits.js';
 import { clockTime, frameText } from '../number_format.js';
 
 export class TimelineHover {
@@ -15,7 +15,7 @@ export class TimelineHover {
     const segment = document.segments[this.#result.segmentIndexAt(frame)];
     const what = cut ? 'cut' : key ? `key-frame of ${segment.name}` : segment.name + repetition(segment, frame);
     $('hover-text').textContent = `${what} · frame ${frameText(frame)} · ${clockTime(secondsAt.call(this.#result, frame))}`;
-    this.#pictured = cut ? -1 : key ? frame : portraitFrame(segment, document.key_frames);
+    this.#pictured = cut ? -1 : key ? frame : portraitFrame(segment);
     this.#showPicture();
     this.#box.hidden = false;
     const room = this.#box.parentElement.clientWidth - this.#box.offsetWidth;

@@ -2,6 +2,7 @@
 // so that thousands cost little.
 
 import { oncePerFrame, onResize, onThemeChange, sharpContext, styleValue } from '../dom.js';
+import { portraitFrame } from '../editing/segment_edits.js';
 import { motionColour, motionFill, inkOver } from '../palette.js';
 
 const GAP = 1;
@@ -87,7 +88,8 @@ export class SegmentTrack {
   }
 
   /** Pictures of poses, as many as there is room for: one, two or four, evenly over the segment. */
-  #pictures(context, { start, end }, left, right, height) {
+  #pictures(context, segment, left, right, height) {
+    const { start, end } = segment;
     const high = height - BAND - 2;
     const wide = (high * 4) / 3;
     const room = Math.floor((right - left) / (wide * 1.15));
@@ -97,7 +99,8 @@ export class SegmentTrack {
     for (let i = 0; i < count; i++) {
       const middle = left + (i + 0.5) * cell;
       if (middle + wide < this.#plot().left || middle - wide > this.#plot().left + this.#plot().width) continue;
-      const picture = this.#picture(Math.floor(start + ((i + 0.5) / count) * (end - start)), this.refresh);
+      const frame = count > 1 ? Math.floor(start + ((i + 0.5) / count) * (end - start)) : portraitFrame(segment);
+      const picture = this.#picture(frame, this.refresh);
       if (!picture) continue;
       const shown = Math.min(1, (cell - 2) / wide); // what does not fit of its sides is left out
       context.drawImage(picture, (picture.width * (1 - shown)) / 2, 0, picture.width * shown, picture.height, middle - (wide * shown) / 2, BAND + 1, wide * shown, high);
