@@ -42,13 +42,19 @@ def check_edits(edits: Sequence[Edit], frames: int) -> tuple[Edit, ...]:
     return tuple(edit.model_copy(update={"motion": ranks[edit.motion], "name": names[edit.motion]}) for edit in edits)
 
 
-def apply_revision(document: SegmentationDocument, number: int, edits: Sequence[Edit]) -> SegmentationDocument:
+def apply_revision(
+    document: SegmentationDocument, number: int, edits: Sequence[Edit], loops: Sequence[Loop | None] | None = None
+) -> SegmentationDocument:
     """The computed result with the `checked` segments of revision `number` in place of its own.
 
-    Cuts that did not move keep their confidence; key-frames are of the motion that they are in now.
+    Cuts that did not move keep their confidence; key-frames are of the motion that they are in now. `loops` are the
+    best of each segment, where they were searched; else a segment keeps the best of those that lie within it.
     """
     sure = {segment.end: segment.confidence for segment in document.segments}
-    segments = tuple(_revised_segment(document, edit, sure.get(edit.end)) for edit in edits)
+    known = loops or tuple(_kept_loop(document.segments, edit) for edit in edits)
+    segments = tuple(
+        _revised_segment(document, edit, sure.get(edit.end), loop) for edit, loop in zip(edits, known, strict=True)
+    )
     return document.model_copy(
         update={
             "revision": number,
@@ -59,7 +65,9 @@ def apply_revision(document: SegmentationDocument, number: int, edits: Sequence[
     )
 
 
-def _revised_segment(document: SegmentationDocument, edit: Edit, confidence: float | None) -> Segment:
+def _revised_segment(
+    document: SegmentationDocument, edit: Edit, confidence: float | None, loop: Loop | None
+) -> Segment:
     begin, rate = document.source.start_seconds, document.frame_rate
     return Segment(
         start=edit.start,
@@ -68,15 +76,15 @@ def _revised_segment(document: SegmentationDocument, edit: Edit, confidence: flo
         end_seconds=begin + min(edit.end, document.frames - 1) / rate,
         motion=edit.motion,
         name=edit.name or motion_name(edit.motion),
-        repeats=_kept_repeats(document.segments, edit),
-        best_loop=_kept_loop(document.segments, edit),
+        repeats=kept_repeats(document.segments, edit),
+        best_loop=loop,
         confidence=confidence,
         loop=edit.loop,
         discard=edit.discard,
     )
 
 
-def _kept_repeats(before: Iterable[Segment], edit: Edit) -> tuple[Interval, ...]:
+def kept_repeats(before: Iterable[Segment], edit: Edit) -> tuple[Interval, ...]:
     """Those of the segment that it was cut from or stretched from; none where several have become one."""
     within = [s for s in before if edit.start <= s.start and s.end <= edit.end]
     touched = within or [s for s in before if s.start < edit.end and edit.start < s.end]

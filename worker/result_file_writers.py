@@ -20,7 +20,7 @@ from caesura.worker.queue.queues import TimeLimit
 from caesura.worker.records import Records
 from caesura.worker.records.connection import tolerate_full_disk
 from caesura.worker.records.record_types import ExportRecord, SegmentationRecord
-from caesura.worker.records.revisions import read_edits
+from caesura.worker.records.revisions import read_edits, read_loops
 from caesura.worker.retention.deletion import delete_oldest_result_files
 from caesura.worker.settings import WorkerSettings
 from caesura.worker.store.blobs import BlobMissing, Blobs
@@ -76,7 +76,7 @@ def make_result_file(records: Records, blobs: Blobs, settings: WorkerSettings, i
         return  # deleted meanwhile
     result = SegmentationDocument.model_validate_json(document)
     if revision:
-        result = apply_revision(result, revision, edits)
+        result = apply_revision(result, revision, edits, read_loops(records, identifier, revision))
     try:
         source = ExportSource(
             result,

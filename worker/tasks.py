@@ -6,6 +6,8 @@ from contextlib import suppress
 from caesura.core.analysis import Analysis
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse, cut, cut_into_other_motion_counts
+from caesura.core.repetition.loops import search_loops
+from caesura.core.revision import kept_repeats
 from caesura.core.segmentation_document import SegmentationDocument
 from caesura.formats.playback.playback_files import make_playback
 from caesura.formats.read import read_animation
@@ -19,6 +21,7 @@ from caesura.worker.queue.attempt import Attempt, Superseded, run_attempt
 from caesura.worker.queue.auxiliary_jobs import submit_alternatives
 from caesura.worker.records import content_ids
 from caesura.worker.records.record_types import AnalysisRecord, AnimationRecord, ViewerRecord
+from caesura.worker.records.revisions import EDITS, keep_searched_loops
 from caesura.worker.retention.sweep import sweep_by_clock
 from caesura.worker.store.blobs import BlobMissing, Blobs
 from caesura.worker.store.memory_maps import map_parts, scratch_space
@@ -57,6 +60,20 @@ def run_alternatives(identifier: str) -> None:
         for made in cut_into_other_motion_counts(analysis, record.chosen(), scored, found.motions):
             if not store_alternative(records, identifier, made.document()):
                 return
+
+
+def run_loops(identifier: str, token: str, edits: str) -> None:
+    """The best loops of segments that a person has cut otherwise: somebody waits a moment for them."""
+    settings, records = worker_context().settings, worker_context().jobs.records
+    record, (document, _, _) = records.segmentations.one(identifier), records.segmentations.result(identifier)
+    if record is None or record.analysis is None or document is None:
+        return  # deleted meanwhile
+    JobQuota(settings.job_memory_bytes, settings.job_seconds)
+    with suppress(BlobMissing):
+        segments = SegmentationDocument.model_validate_json(document).segments
+        parts = [(edit.start, edit.end, kept_repeats(segments, edit)) for edit in EDITS.validate_json(edits)]
+        loops = search_loops(stored_analysis(record.analysis.key), parts)
+        keep_searched_loops(records, identifier, token, loops)
 
 
 def run_export(identifier: str, form: str) -> None:

@@ -59,6 +59,13 @@ def find_loops(
         return tuple(loops.within(a, b, inner) for (a, b), inner in zip(bounds, repeats, strict=True))
 
 
+def search_loops(analysis: Analysis, parts: Sequence[tuple[int, int, Sequence[Interval]]]) -> tuple[Loop | None, ...]:
+    """The best loop of frames [start, end) for each of `parts`, with the repetitions that tile it."""
+    finder = LoopFinder.of(analysis)
+    with single_threaded_blas():
+        return tuple(finder.within(start, end, repeats) for start, end, repeats in parts)
+
+
 def _best_loop(
     features: tuple[Features, ...], frame_rate: float, start: int, end: int, repeats: Sequence[Interval]
 ) -> Loop | None:

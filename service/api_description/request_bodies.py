@@ -208,7 +208,8 @@ REVISION_BODY: dict[str, Any] = {
             "schema": {"type": "string"},
             "description": 'the ETag of the revision that was edited, which must be the newest; `"0"` without any',
             "example": '"0"',
-        }
+        },
+        *WAIT["parameters"],
     ],
     "requestBody": {
         "required": True,

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from caesura.core.errors import ParameterError
 from caesura.core.revision import Edit, apply_revision
-from caesura.core.segmentation_document import SegmentationDocument
+from caesura.core.segmentation_document import Loop, SegmentationDocument
 from caesura.service.backend import Backend
 from caesura.service.http.json_body import read_json_body
 from caesura.service.problems.problem_response import RequestProblem
@@ -97,12 +97,16 @@ def refuse_stale_revision(record: SegmentationRecord) -> RequestProblem:
 async def revised_document(backend: Backend, record: SegmentationRecord, number: int) -> SegmentationDocument:
     """The result as it reads with that revision; raises `RequestProblem` where it was deleted meanwhile."""
     stored = await backend.records.document(record.id)
-    kept = await Revisions(backend.records).one(record.id, number) if number else None
+    revisions = Revisions(backend.records)
+    kept = await revisions.one(record.id, number) if number else None
+    loops = await revisions.loops(record.id, number) if number else None
     if stored is None or (number and kept is None):
         raise RequestProblem("not-found", f"There is no segmentation {record.id}. It may have been deleted.")
-    return await to_thread.run_sync(_read, stored, number, kept[1] if kept else None)
+    return await to_thread.run_sync(_read, stored, number, kept[1] if kept else None, loops)
 
 
-def _read(stored: bytes | str, number: int, edits: tuple[Edit, ...] | None) -> SegmentationDocument:
+def _read(
+    stored: bytes | str, number: int, edits: tuple[Edit, ...] | None, loops: tuple[Loop | None, ...] | None
+) -> SegmentationDocument:
     document = SegmentationDocument.model_validate_json(stored)
-    return document if edits is None else apply_revision(document, number, edits)
+    return document if edits is None else apply_revision(document, number, edits, loops)

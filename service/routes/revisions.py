@@ -1,13 +1,18 @@
 """Revisions: segments that people edited, stored beside the computed result."""
 
+from collections.abc import Sequence
+from contextlib import aclosing
+
 from anyio import to_thread
 from fastapi import APIRouter, Request, Response
 
-from caesura.core.revision import check_edits
+from caesura.core.revision import Edit, check_edits
+from caesura.core.segmentation_document import Loop
 from caesura.service.api_description.media_types import REVISED, REVISION
 from caesura.service.api_description.request_bodies import REVISION_BODY
 from caesura.service.auth.request_owner import Owner
 from caesura.service.backend import Backend, BackendDependency
+from caesura.service.http.prefer_header import preferred_wait_seconds
 from caesura.service.response_documents import RevisionDocument, RevisionEntry, RevisionList
 from caesura.service.results.byte_ranges import cache_headers, is_not_modified
 from caesura.service.results.result_response import unfinished_response
@@ -18,7 +23,9 @@ from caesura.service.results.revision_request import (
     revised_document,
     revision_number,
 )
-from caesura.service.segmentations.document_response import document_response
+from caesura.service.segmentations.document_response import document_response, preference_applied
+from caesura.worker.queue.auxiliary_jobs import submit_loop_search
+from caesura.worker.queue.queues import QueueFull
 from caesura.worker.records.record_types import RevisionRecord, SegmentationRecord
 from caesura.worker.records.revisions import Revisions, add_revision
 
@@ -30,7 +37,8 @@ async def create_revision(identifier: str, request: Request, backend: BackendDep
     """Keep the segments as a person has set them.
 
     They are the newest revision; the computed result stays as it is. If-Match names the revision that was edited:
-    where another has come since, 412 and nothing is kept.
+    where another has come since, 412 and nothing is kept. With `Prefer: wait=N` a worker searches the best loops of
+    segments that were cut otherwise, for N seconds at most; else such a segment keeps the best that lies within it.
     """
     record = await backend.segmentation(identifier, owner)
     refused = unfinished_response(request, record)
@@ -39,10 +47,12 @@ async def create_revision(identifier: str, request: Request, backend: BackendDep
     before = expected_revision(request)
     order = await parse_revision_request(request)
     edits = check_edits(order.segments, record.frames or 0)
-    kept = await to_thread.run_sync(add_revision, backend.jobs.records, identifier, before, order.note, edits)
+    loops = await _searched_loops(backend, request, record, edits)
+    kept = await to_thread.run_sync(add_revision, backend.jobs.records, identifier, before, order.note, edits, loops)
     if kept is None:
         raise refuse_stale_revision(await backend.segmentation(identifier, owner))
     headers = {"Location": f"/v1/segmentations/{identifier}/revisions/{kept.number}", "ETag": f'"{kept.number}"'}
+    headers |= preference_applied(request)
     return document_response(await _document(backend, record, kept), 201, headers)
 
 
@@ -81,6 +91,34 @@ async def get_revision(
     return document_response(
         await _document(backend, record, kept[0] if kept else _computed_revision(record)), 200, headers
     )
+
+
+async def _searched_loops(
+    backend: Backend, request: Request, record: SegmentationRecord, edits: Sequence[Edit]
+) -> tuple[Loop | None, ...] | None:
+    """The best loop of each segment, searched by a worker where a segment was cut otherwise.
+
+    None where the client does not wait for that, and where they are not there in time: then a segment keeps the best
+    of the computed loops that lie within it.
+    """
+    known = {(segment.start, segment.end): segment.best_loop for segment in record.segments}
+    changed = [edit for edit in edits if (edit.start, edit.end) not in known]
+    seconds = preferred_wait_seconds(request)
+    if not seconds or not changed or record.analysis is None:
+        return None
+    try:
+        token = await to_thread.run_sync(submit_loop_search, backend.jobs, record.id, changed)
+    except QueueFull:
+        return None
+    with backend.limited_wait(seconds):
+        async with aclosing(backend.records.follow_changes(record.id)) as changes:
+            async for _ in changes:
+                found = await Revisions(backend.records).searched_loops(token)
+                if found is not None:
+                    bounds = [(edit.start, edit.end) for edit in changed]
+                    known |= dict(zip(bounds, found, strict=True))
+                    return tuple(known[edit.start, edit.end] for edit in edits)
+    return None
 
 
 async def _document(backend: Backend, record: SegmentationRecord, kept: RevisionRecord) -> RevisionDocument:

@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 import struct
 from pathlib import Path
 
@@ -9,7 +10,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.journeys import opened
+from tests.browser.journeys import opened, saved
 from tests.browser.test_export_panel import downloaded, take_names
 
 pytestmark = pytest.mark.timeout(240)
@@ -99,3 +100,20 @@ def test_a_marked_segment_is_saved_as_its_loop(result: Page, tmp_path: Path) -> 
     extras = json.loads(glb[20 : 20 + length])["animations"][0]["extras"]["caesura"]
     assert extras["loop"]["match"] == "good"
     result.keyboard.press("Control+z")
+
+
+def test_a_part_of_a_segment_has_a_loop_of_its_own(result: Page) -> None:
+    """Split in the middle of its loop, each part is offered one that lies within it."""
+    here = f"/v1/segmentations/{result.url.split('/view/')[1].split('#')[0]}/result.json"
+    loop = result.request.get(here).json()["segments"][0]["best_loop"]
+    result.locator("#frame").fill(str((loop["start"] + loop["end"]) // 2))
+    result.locator("#frame").press("Enter")
+    result.locator("#split").click()
+    saved(result)
+    parts = result.request.get(f"{here}?revision=latest").json()["segments"][:2]
+    for index, part in enumerate(parts):
+        found = part["best_loop"]
+        assert part["start"] <= found["start"] < found["end"] <= part["end"]
+        result.locator("#segments .segment").nth(index).click()
+        text = re.compile(f"frames {found['start']} to {found['end']}[.]")
+        expect(result.locator("#play-loop")).to_have_attribute("title", text)

@@ -102,7 +102,8 @@ def test_calls_that_wait_say_so(document):
     files = {f"{below}/{form}" for form in ("result", "clips", "keyframes")}
     inside = "GET /v1/collections/{identifier}"
     collections = {inside, f"{inside}/proposals/{{proposal}}", f"{inside}/searches/{{search}}"}
-    assert waiting == {"POST /v1/segmentations", below} | forms | plots | files | collections
+    made = {"POST /v1/segmentations", "POST /v1/segmentations/{identifier}/revisions"}
+    assert waiting == made | {below} | forms | plots | files | collections
 
 
 @pytest.mark.parametrize("name", MODELS)

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import itertools
 import json
 import struct
 import time
@@ -313,3 +314,27 @@ def test_answers_that_there_is_no_file_are_as_few(service, fresh):
     while len(records.exports.forms(identifier)) > MOST_EXPORTS:
         time.sleep(0.05)
     assert len(list(records.redis.scan_iter(f"caesura:export:{identifier}:*", count=1000))) <= MOST_EXPORTS
+
+
+def test_the_loop_of_a_segment_that_was_cut_otherwise_is_searched_within_it(service, fresh):
+    """Where the client waits for it; the computed loop lies half outside by now, and is offered no more."""
+    computed = service.http.get(f"{fresh}/result").json()["segments"]
+    at, whole = max(
+        enumerate(computed[:-1]), key=lambda found: (found[1]["best_loop"] or {"end": 0, "start": 0})["end"]
+    )
+    old = whole["best_loop"]
+    start = (old["start"] + old["end"]) // 2
+    bounds = [*(one["start"] for one in computed), FRAMES]
+    bounds.insert(at + 1, start)
+    segments = [edit(*pair, motion) for motion, pair in enumerate(itertools.pairwise(bounds))]
+    hasty = revise(service, fresh, segments).json()["segments"]
+    assert hasty[at + 1]["best_loop"] is None
+    headers = {"If-Match": '"1"', "Prefer": "wait=30"}
+    kept = service.http.post(f"{fresh}/revisions", json={"segments": segments}, headers=headers)
+    assert kept.headers["Preference-Applied"] == "wait=30"
+    found = kept.json()["segments"]
+    loop = found[at + 1]["best_loop"]
+    assert found[at + 1]["start"] <= loop["start"] < loop["end"] <= found[at + 1]["end"]
+    assert [one["best_loop"] for one in found[at + 2 :]] == [one["best_loop"] for one in computed[at + 1 :]]
+    assert service.http.get(f"{fresh}/revisions/2").json()["segments"] == found
+    assert service.http.get(f"{fresh}/revisions/1").json()["segments"] == hasty

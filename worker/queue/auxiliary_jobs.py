@@ -1,13 +1,16 @@
-"""Jobs that are no segmentation: a file of a result, the other numbers of motions, a look for what is kept too long."""
+"""Jobs that are no segmentation: files of a result, loops of edited segments, other numbers of motions, a clean-up."""
 
 import time
+from collections.abc import Sequence
 
 from redis.client import Pipeline
 
+from caesura.core.revision import Edit
 from caesura.worker.queue.jobs import Jobs
 from caesura.worker.records import content_ids, redis_keys
 from caesura.worker.records.connection import transact
 from caesura.worker.records.record_types import ExportRecord
+from caesura.worker.records.revisions import EDITS
 
 SWEEP_SECONDS = 3600
 PROBLEM_SECONDS = 10.0
@@ -48,6 +51,21 @@ def _has_pending_export(jobs: Jobs, export: ExportRecord) -> bool:
         return jobs.records.attempts.leased(export.token) or jobs.queues.is_waiting("cut", export.token)
     passing = (export.problem or {}).get("kind") == "worker"
     return not passing or abs(time.time() - export.created) < PROBLEM_SECONDS
+
+
+def submit_loop_search(jobs: Jobs, identifier: str, edits: Sequence[Edit]) -> str:
+    """Have the best loops of edited segments searched; answers the token of `Revisions.searched_loops`.
+
+    Raises `QueueFull` where too many jobs wait.
+    """
+    jobs.queues.check_room()
+    token = content_ids.random_token()
+    with jobs.redis.pipeline() as pipe:
+        jobs.queues.put(
+            "cut", "loops", [identifier, token, EDITS.dump_json(tuple(edits)).decode()], token, jobs.job_seconds, pipe
+        )
+        pipe.execute()
+    return token
 
 
 def submit_alternatives(jobs: Jobs, identifier: str) -> None:

@@ -24,7 +24,7 @@ log = logging.getLogger(__name__)
 QUEUES: tuple[Queue, ...] = ("analyse", "cut")
 TASKS = {
     name: f"caesura.worker.tasks.run_{name}"
-    for name in (*QUEUES, "alternatives", "export", "sweep", "collect", "propose", "search")
+    for name in (*QUEUES, "alternatives", "export", "loops", "sweep", "collect", "propose", "search")
 }
 RESULT_SECONDS = 60  # how long RQ remembers what our record knows anyway
 FAILURE_SECONDS = 24 * 3600

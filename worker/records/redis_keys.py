@@ -13,7 +13,8 @@
 | caesura:segmentation:ID:energy | string | little-endian float32, one per frame, NaN where there is none |
 | caesura:segmentation:ID:labels | string | little-endian uint16, one per frame |
 | caesura:revisions:ID | list | RevisionRecord of each revision in order, JSON |
-| caesura:revised:ID | hash | number of a revision: its segments, JSON |
+| caesura:revised:ID | hash | number of a revision: its segments, JSON; `N:loops`: their best loops, JSON |
+| caesura:loop-search:TOKEN | string, expires | the loops that a search has found, JSON |
 | caesura:alternatives:ID | hash | number of motions: what it would be cut into that many (`worker.alternatives`) |
 | caesura:segmentations:ANIMATION | sorted set | ids of segmentations by time of creation |
 | caesura:made:OWNER | sorted set | ids of an owner's segmentations by time of creation |
@@ -95,6 +96,11 @@ def segmentation_key(identifier: str, part: Literal["", "document", "energy", "l
 def revisions_key(segmentation: str) -> str:
     """A result's revisions, in order."""
     return f"caesura:revisions:{segmentation}"
+
+
+def loop_search_key(token: str) -> str:
+    """What a search for loops has found, for a minute."""
+    return f"caesura:loop-search:{token}"
 
 
 def revised_key(segmentation: str) -> str:

@@ -77,12 +77,15 @@ function revisionQuery(revision, choices = {}) {
   return query && `?${query}`;
 }
 
-/** Save edited segments as the revision after number `newest`; 412 if somebody else has saved one since. */
+/**
+ * Save edited segments as the revision after number `newest`; 412 if somebody else has saved one since. The answer has the loops that
+ * a worker finds in segments that were cut otherwise, if it finds them soon.
+ */
 export function revise(id, segments, newest, note) {
   const sent = segments.map(({ start, end, motion, name, loop, discard }) =>
     ({ start, end, motion, name, loop: Boolean(loop), discard: Boolean(discard) }));
   const { body, headers } = json({ segments: sent, note });
-  return call('POST', `/v1/segmentations/${id}/revisions`, { body, headers: { ...headers, 'If-Match': `"${newest}"` } });
+  return call('POST', `/v1/segmentations/${id}/revisions`, { body, headers: { ...headers, 'If-Match': `"${newest}"`, Prefer: 'wait=3' } });
 }
 
 /** Wait a while for a worker to write an export; answers whether it is written. */
