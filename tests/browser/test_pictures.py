@@ -16,11 +16,13 @@ DRAWN = """() => [...document.querySelectorAll('#segments canvas')].every((canva
 
 
 def test_pictures_are_there_before_the_figure_and_on_the_card(
-    page: Page, browser: Browser, address: str, own: Path
+    page: Page, browser: Browser, address: str, own: Path, tmp_path: Path
 ) -> None:
     """The second time nothing is drawn for them, not even a figure is needed; deleted, they are gone."""
+    file = tmp_path / "pictured.glb"
+    file.write_bytes(own.read_bytes())
     with page.expect_response(lambda answer: answer.request.method == "PUT", timeout=90_000) as kept:
-        opened(page, own)
+        opened(page, file)
     assert kept.value.status == 204
     identifier = page.url.split("/view/")[1].split("#")[0]
     context = browser.new_context(viewport={"width": 1100, "height": 720}, base_url=address)
@@ -31,7 +33,7 @@ def test_pictures_are_there_before_the_figure_and_on_the_card(
     again.wait_for_function(DRAWN)
     assert again.locator("#segments canvas").count() > 4
     again.goto("/")
-    card = again.locator("#recent-cards .card", has_text="own.glb").first
+    card = again.locator("#recent-cards .card", has_text="pictured.glb")
     expect(card.locator(".poster")).to_be_visible()
     assert card.locator(".poster").evaluate("(picture) => [picture.naturalWidth, picture.naturalHeight]") == [96, 72]
     pictures = f"/v1/segmentations/{identifier}/pictures"

@@ -65,6 +65,25 @@ def test_the_motion_of_the_moment_is_not_under_the_zoom(result: Page, width: int
     assert motion["x"] + motion["width"] <= zoom["x"] or motion["y"] >= zoom["y"] + zoom["height"]
 
 
+@pytest.mark.parametrize("width", [1000, 1280, 1440])
+def test_nothing_of_the_deck_and_the_list_lies_on_another_thing(result: Page, width: int) -> None:
+    """The tools of any segment leave undo and redo free, the tabs end before the edge, the axis is named beside it."""
+    result.set_viewport_size({"width": width, "height": 800})
+    result.keyboard.press("Escape")
+
+    def box(selector: str) -> dict[str, float]:
+        found = result.locator(selector).bounding_box()
+        assert found is not None, selector
+        return {**found, "right": found["x"] + found["width"], "bottom": found["y"] + found["height"]}
+
+    for key in ("Home", "End", ",", ","):
+        result.keyboard.press(key)
+        tools, kept = box("#selection-tools"), box("#kept-tools")
+        assert tools["right"] <= kept["x"] or tools["bottom"] <= kept["y"], key
+    assert box("#tab-history")["right"] <= box("#side")["right"] - 8
+    assert box(".axis")["right"] <= box("#curve .u-over")["x"]
+
+
 def test_a_cut_is_chosen_moved_and_merged_with_a_thumb(result: Page) -> None:
     """On a phone the tools of the cut take the place of the segment's, and go with it."""
     result.set_viewport_size({"width": 360, "height": 740})

@@ -10,7 +10,7 @@ export function placeTools(x) {
   const width = row.clientWidth;
   const wide = tools.offsetWidth;
   const room = width - beside.offsetWidth - 2 * EDGE;
-  const apart = tools.offsetTop !== beside.offsetTop; // a narrow row: they stand under each other
+  const apart = beside.offsetTop >= tools.offsetTop + tools.offsetHeight; // a narrow row: they stand under each other
   const most = Math.max(0, (apart ? width : room) - wide);
   const left = Math.max(0, Math.min(most, x - wide / 2));
   tools.style.transform = `translateX(${left}px)`;
