@@ -120,7 +120,7 @@ const say = (sentence) => { $('together-note').textContent = sentence; };
 /** Pose all figures where the slider stands. Answers what must be fetched first. */
 function pose(share = Number($('together-share').value)) {
   if (!shown?.moving.length) return null;
-  return scene.pose(sharesOf(shown.moving, share).map((into, place) => ({ position: place + into, start: place, aligned: true, colouring: null })));
+  return scene.pose(sharesOf(shown.moving, share).map((into, place) => ({ position: place + into, start: place, colouring: null })));
 }
 
 function run() {
