@@ -78,7 +78,7 @@ async function showPage(first) {
 /** Load the figures of segments and show those that there are; answers how many there are not. */
 async function showFigures(items, signal) {
   const [{ FigureScene }, { createFigureGroup }, renderer, repeated, members] = await Promise.all([
-    import('../figure/scene.js'), import('./figure_group.js'), probeRenderer(), withRepeats(items), figuresOf(items, signal)]);
+    import('../figure/scene.js'), import('../figure/figure_group.js'), probeRenderer(), withRepeats(items), figuresOf(items, signal)]);
   signal.throwIfAborted();
   scene ||= new FigureScene($('together-figures'), isSoftware(renderer));
   const present = members.flatMap((member, place) => (member ? [{ member, ...repeated[place] }] : []));

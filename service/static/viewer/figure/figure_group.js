@@ -1,8 +1,8 @@
 // The figures of several takes as one figure, of which one stands at a time: at k + share stands member k, that share into its segment.
 
 import { Group, Vector3 } from 'three';
-import { createGltfFigure } from '../figure/gltf_figure.js';
-import { createVertexFigure } from '../figure/vertex_figure.js';
+import { createGltfFigure } from './gltf_figure.js';
+import { createVertexFigure } from './vertex_figure.js';
 
 const UNLIKE = 2; // times: bodies that differ by more in size are measured in other units
 
