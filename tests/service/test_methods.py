@@ -49,6 +49,8 @@ STATUSES = {
     f"{HERE}/viewer/materials": (404, 404, 204, 405, 405),
     f"{HERE}/clips": (404, 404, 204, 405, 405),
     f"{HERE}/clips/plan": (404, 404, 204, 405, 405),
+    f"{HERE}/pictures": (404, 404, 204, 405, 405),
+    f"{HERE}/poster": (404, 404, 204, 405, 405),
     f"{HERE}/keyframes": (404, 404, 204, 405, 405),
     f"{HERE}/revisions": (404, 404, 204, 404, 405),
     f"{HERE}/revisions/1": (404, 404, 204, 405, 405),

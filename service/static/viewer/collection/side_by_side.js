@@ -77,8 +77,8 @@ async function showPage(first) {
 
 /** Load the figures of segments and show those that there are; answers how many there are not. */
 async function showFigures(items, signal) {
-  const [{ FigureScene }, { createFigureGroup }, renderer, repeated, members] = await Promise.all([
-    import('../figure/scene.js'), import('../figure/figure_group.js'), probeRenderer(), withRepeats(items), figuresOf(items, signal)]);
+  const [{ FigureScene }, renderer, repeated, members] = await Promise.all([
+    import('../figure/scene.js'), probeRenderer(), withRepeats(items), figuresOf(items, signal)]);
   signal.throwIfAborted();
   scene ||= new FigureScene($('together-figures'), isSoftware(renderer));
   const present = members.flatMap((member, place) => (member ? [{ member, ...repeated[place] }] : []));
@@ -86,7 +86,7 @@ async function showFigures(items, signal) {
   scene.columns = Math.min(shown.columns, present.length);
   $('together-tiles').style.setProperty('--columns', scene.columns);
   $('together-tiles').replaceChildren(...present.map(label));
-  await scene.show({ kind: 'group', members: present.map(({ member }) => member) }, {}, signal, createFigureGroup);
+  await scene.show({ kind: 'group', members: present.map(({ member }) => member) }, {}, signal);
   signal.throwIfAborted();
   shown.moving = present.map(({ segment }) => segment);
   await pose(0);

@@ -4,6 +4,7 @@ import { Group, MeshLambertMaterial, Scene, Vector3, WebGLRenderer } from 'three
 import { FigureCamera } from './camera.js';
 import { onResize, onThemeChange, styleValue } from '../dom.js';
 import { skyEnvironment } from './environment.js';
+import { createFigureGroup } from './figure_group.js';
 import { Floor } from './floor.js';
 import { createGltfFigure } from './gltf_figure.js';
 import { seenFromAbove, turnBetween } from './heading.js';
@@ -14,6 +15,8 @@ import { createVertexFigure } from './vertex_figure.js';
 const MIRRORED = 0.5; // of the light of the sky that shining materials mirror
 const GHOST = 0.3; // of what is behind a ghost it hides
 const FINEST = 2; // pixels to a CSS pixel; nobody sees more
+
+const FIGURES = { gltf: createGltfFigure, group: createFigureGroup };
 
 export class FigureScene {
   #renderer; #scene = new Scene(); #camera; #floor = new Floor(); #light = new Light(); #requested = false;
@@ -44,10 +47,11 @@ export class FigureScene {
   /** Whether the camera follows the body. */
   set following(on) { this.#camera.following = on; }
 
-  /** Show the figure of a viewer document, from the `files` of `downloadFigure`, in place of the one before; `create` makes it. */
-  async show(viewer, files, signal, create = viewer.kind === 'gltf' ? createGltfFigure : createVertexFigure) {
+  /** Show the figure of a viewer document, from the `files` of `downloadFigure`, in place of the one before. */
+  async show(viewer, files, signal) {
     const [model, colours] = await Promise.all([files.model, files.strain]);
     const strain = new SurfaceShading(colours);
+    const create = FIGURES[viewer.kind] ?? createVertexFigure;
     const figure = await create(viewer, model, strain, this.#software);
     if (signal.aborted) return figure.dispose();
     this.clear();
