@@ -10,6 +10,7 @@ short_segments     segments that only the blur of a window makes
 transitions        what is too short to be a motion: the way from one to the next
 neighbour_graph    moments, each linked to those most like it; the normalised cut of a labelling
 subdivision        a motion seen by itself, which may be two
+labellings         the motions of a take as one view shows them, judged by the graph
 motion_count       the labelling of the least cut, and how many motions there are
 refinement         cuts moved to the frame
 cut_confidence     how sure each cut is

@@ -6,8 +6,9 @@ from caesura.core.analysis import Analysis
 from caesura.core.energy.key_frames import extract_key_frames
 from caesura.core.methods.sheets.method import cut_sheet
 from caesura.core.methods.switching.cut_confidence import cut_confidence
+from caesura.core.methods.switching.labellings import Labellings
 from caesura.core.methods.switching.missed_cuts import find_missed_cuts
-from caesura.core.methods.switching.motion_count import Labellings, MotionCountSearch
+from caesura.core.methods.switching.motion_count import MotionCountSearch
 from caesura.core.methods.switching.refinement import Refinement
 from caesura.core.methods.switching.views import Frames, Views
 from caesura.core.parameters import Auto, Parameters

@@ -5,7 +5,8 @@ from collections.abc import Iterable
 import numpy as np
 from jaxtyping import Int
 
-from caesura.core.methods.switching.motion_count import WORTH, Labelling
+from caesura.core.methods.switching.labellings import Labelling
+from caesura.core.methods.switching.motion_count import WORTH
 
 NEAR_SECONDS = 0.5
 LEAST = 0.1

@@ -3,7 +3,8 @@
 import numpy as np
 
 from caesura.core.agreement import frame_accuracy
-from caesura.core.methods.switching.motion_count import Labelling, Labellings, MotionCountSearch, _worthiest
+from caesura.core.methods.switching.labellings import Labelling, Labellings
+from caesura.core.methods.switching.motion_count import MotionCountSearch, _worthiest
 from caesura.core.methods.switching.refinement import Refinement
 from caesura.core.methods.switching.views import VIEWS, Frames, Views
 from tests.core.methods.test_switching import RATE, analysis_of, cut
