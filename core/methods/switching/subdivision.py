@@ -7,7 +7,7 @@ beside the large one. With that out of sight they are seen.
 from collections.abc import Iterator
 
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Bool, Int
 
 from caesura.core.frames.blocks import map_blocks
 from caesura.core.methods.switching.views import BOTH, View, Views
@@ -46,6 +46,20 @@ def _divide(
     halves = alone.settled(2) if alone is not None else None
     if halves is None or halves.motions != 2:
         return None
+    second = halves.labels == 1
+    for performed in np.split(second, np.flatnonzero(np.diff(steps) > 1) + 1):
+        _merge_short_pieces(performed, signal.window)
     divided = of_step.copy()
-    divided[steps[halves.labels == 1]] = of_step.max() + 1
+    divided[steps[second]] = of_step.max() + 1
     return view, signal.per_frame(divided)
+
+
+def _merge_short_pieces(second: Bool[np.ndarray, "steps"], least: int) -> None:
+    """In one segment of the motion, what is shorter than `least` joins the other half, the shortest first."""
+    while True:
+        bounds = np.concatenate([[0], np.flatnonzero(np.diff(second)) + 1, [len(second)]])
+        lengths = np.diff(bounds)
+        shortest = int(lengths.argmin())
+        if len(lengths) == 1 or lengths[shortest] >= least:
+            return
+        second[bounds[shortest] : bounds[shortest + 1]] ^= True

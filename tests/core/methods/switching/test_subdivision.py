@@ -6,10 +6,12 @@ from caesura.core.agreement import frame_accuracy
 from caesura.core.methods.switching.labellings import Labelling, Labellings
 from caesura.core.methods.switching.motion_count import MotionCountSearch, _worthiest
 from caesura.core.methods.switching.refinement import Refinement
+from caesura.core.methods.switching.subdivision import subdivide_motions
 from caesura.core.methods.switching.views import VIEWS, Frames, Views
 from tests.core.methods.test_switching import RATE, analysis_of, cut
 
 LARGE, SMALL = 40.0, 0.8
+STEP = round(RATE / 10)
 
 
 def one_large_and_three_small(seed):
@@ -71,3 +73,14 @@ def test_a_subdivision_takes_the_place_of_a_labelling_only_where_it_is_clearly_b
         nothing = Labellings(Views(Frames.of(analysis_of(np.zeros((9, 1))))), Refinement(np.zeros((9, 0)), RATE))
         search = MotionCountSearch(nothing, {(VIEWS[0], 2): whole, b"other": other})
         assert search.best()[2] is expected
+
+
+def test_no_half_of_a_motion_is_shorter_than_a_window():
+    """At the ends of a segment the windows reach into the next: a glimpse of the other half is none."""
+    values, truth = one_large_and_three_small(seed=2)
+    merged = np.where(truth == 0, 0, 1)
+    divided = list(subdivide_motions(merged, Views(Frames.of(analysis_of(values)))))
+    assert divided
+    for view, labels in divided:
+        bounds = np.flatnonzero(np.diff(labels, prepend=-1, append=-1))
+        assert np.diff(bounds).min() >= view.seconds * RATE - 2 * STEP
