@@ -16,7 +16,7 @@ from caesura.core.errors import ParameterError
 from caesura.core.registry.descriptors import DESCRIPTORS, PAIR_DISTANCES
 from caesura.core.registry.methods import METHODS
 
-ALGORITHM = "6"
+ALGORITHM = "7"
 
 Auto = Literal["auto"]
 Positive = Field(gt=0, allow_inf_nan=False)

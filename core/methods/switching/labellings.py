@@ -14,18 +14,22 @@ from caesura.core.methods.switching.subdivision import subdivide_motions
 from caesura.core.methods.switching.transitions import remove_transitions
 from caesura.core.methods.switching.views import View, Views
 
+WORTH = 0.61
+"""What a motion may add to the normalised cut where segments last a second. Where they last longer it is less, by the
+root of their seconds: more of a short segment is near its ends, from where links lead out."""
 SURENESS = 0.1
 """A subdivision must be cut so much less: it was looked for until something was found."""
-BEFORE_REFINEMENT = 0.45
-"""A subdivision that adds more before its cuts are refined, which takes time, adds too much after."""
+BEFORE_REFINEMENT = 1.5
+"""A subdivision that adds half more than it is worth before its cuts are refined, which takes time, adds too much
+after."""
 
 
 @dataclass(frozen=True)
 class Labelling:
     """Labels of frames, the transitions that were taken out, the view they were found in, and their normalised cut.
 
-    `cost` is what the view leaves unexplained. `subdivided`: how many motions were cut into two when seen
-    by themselves.
+    `cost` is what the view leaves unexplained. `segment_seconds`: how long a segment lasts in the mean. `subdivided`:
+    how many motions were cut into two when seen by themselves.
     """
 
     labels: Int[np.ndarray, "frames"]
@@ -34,17 +38,18 @@ class Labelling:
     cut: float
     motions: int
     cost: float
+    segment_seconds: float
     subdivided: int = 0
-
-    @property
-    def segments(self) -> int:
-        """How many segments it has."""
-        return int(np.count_nonzero(np.diff(self.labels))) + 1
 
     @property
     def rank(self) -> float:
         """By what labellings of as many motions are compared, the least first."""
         return self.cut + SURENESS * self.subdivided
+
+    @property
+    def worth(self) -> float:
+        """What each of its motions may add to the normalised cut."""
+        return WORTH / float(np.sqrt(self.segment_seconds))
 
 
 @dataclass(frozen=True)
@@ -81,12 +86,15 @@ class Labellings:
         key = whole.labels.tobytes()
         if key not in self._divided:
             divided = subdivide_motions(whole.labels, self.views, self.threads)
-            promising = [one for one in divided if self.graph.cut(one[1]) - whole.cut < BEFORE_REFINEMENT]
+            most = whole.cut + BEFORE_REFINEMENT * whole.worth
+            promising = [one for one in divided if self.graph.cut(one[1]) < most]
             judged = map_blocks(
                 lambda one: self._judged(*one, whole.cost, whole.subdivided + 1), promising, self.threads
             )
             self._divided[key] = tuple(
-                found for found in judged if found.motions > whole.motions and found.segments > whole.segments
+                found
+                for found in judged
+                if found.motions > whole.motions and found.segment_seconds < whole.segment_seconds
             )
         return self._divided[key]
 
@@ -94,5 +102,7 @@ class Labellings:
         refined = self.refinement.moved(labels)
         cleared = remove_transitions(refined, self.views.frames.frame_rate)
         count = len(np.unique(cleared.labels))
+        segments = int(np.count_nonzero(np.diff(cleared.labels))) + 1
+        seconds = len(labels) / self.refinement.frame_rate / segments
         cut = self.graph.cut(cleared.labels)
-        return Labelling(cleared.labels, cleared.transitions, view, cut, count, cost, subdivided)
+        return Labelling(cleared.labels, cleared.transitions, view, cut, count, cost, seconds, subdivided)

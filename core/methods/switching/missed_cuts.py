@@ -6,7 +6,6 @@ import numpy as np
 from jaxtyping import Int
 
 from caesura.core.methods.switching.labellings import Labelling
-from caesura.core.methods.switching.motion_count import WORTH
 
 NEAR_SECONDS = 0.5
 LEAST = 0.1
@@ -20,7 +19,7 @@ def find_missed_cuts(
     """Frames, and how likely a cut is missing there, 0 to 1, the likeliest first.
 
     Each labelling votes for its cuts that are more than half a second from those of the chosen one. A vote weighs
-    exp(−excess / `WORTH`), the excess being how much more the labelling is cut than the chosen one, beyond what its
+    exp(−excess / worth), the excess being how much more the labelling is cut than the chosen one, beyond what its
     motions are worth. Votes within half a second are for the same cut, which is their median.
     """
     near = round(NEAR_SECONDS * frame_rate)
@@ -28,8 +27,8 @@ def find_missed_cuts(
     at, weight, whole = [], [], 0.0
     for other in others:
         if chosen.motions <= other.motions <= chosen.motions + MOST_MORE:
-            excess = other.cut - chosen.cut - WORTH * (other.motions - chosen.motions)
-            vote = float(np.exp(-max(excess, 0.0) / WORTH))
+            excess = other.cut - chosen.cut - other.worth * (other.motions - chosen.motions)
+            vote = float(np.exp(-max(excess, 0.0) / other.worth))
             whole += vote
             for cut in _cuts(other.labels).tolist():
                 if np.abs(known - cut).min() > near:

@@ -1,6 +1,6 @@
 """The number of motions: of what the views found, the labelling of the least normalised cut, and how many it has."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from itertools import product
 
@@ -10,14 +10,12 @@ from caesura.core.agreement import adjusted_rand_index
 from caesura.core.methods.switching.labellings import Labelling, Labellings
 from caesura.core.methods.switching.views import View
 
-WORTH = 0.34
-"""What one motion more may add to the normalised cut. A true motion adds less than .3 on nine takes of ten, the half of
-one more than .4."""
-USUAL, LEAST_WORTH = 6.0, 0.1
-"""And at most six times what those before it added on average, but for a tenth: the half of a motion that is seldom
-interrupted adds little, and its neighbours less."""
-DEAR, MOST_WORTH = 2.0, 0.44
-"""In a short take every motion adds much: twice what those before it added is still a motion, up to this."""
+DISAGREEMENT = 0.2
+"""What it costs where the views agree on a labelling no more than chance would have it: the halves of a motion are not
+the same in every view."""
+FEWEST_VIEWS = 2
+MOST_AGREE = 0.25
+"""Three views of four agree so much or more: a view may miss a motion that is there."""
 LESS = 2
 """Labellings of up to so many motions less are subdivided where a number is asked for."""
 BEYOND = 4
@@ -87,18 +85,45 @@ class MotionCountSearch:
             ahead = range(motions, max(enough, motions + self.labellings.threads - 1) + 1)
             self.labellings.prepare(product(lead, ahead))
             self.ask(lead, motions)
-            enough = _worthiest(self.best()).motions + PATIENCE
+            enough = self._worthiest().motions + PATIENCE
             if motions >= enough:
                 break
         tried = 0
-        while (now := _worthiest(self.best()).motions) != tried:
+        while (now := self._worthiest().motions) != tried:
             tried = now
             around = range(max(now - AROUND, 1), now + BEYOND + 1)
             self.labellings.prepare(product(self.views, around))
             for motions in around:
                 self.ask(self.views, motions)
             self.subdivide((now,))
-        return self._agreed(_worthiest(self.best()).motions)
+        return self._agreed(self._worthiest().motions)
+
+    def _worthiest(self) -> Labelling:
+        """From one motion on, the next number at which the motions that came in are worth what they add; the last."""
+        best = self.best()
+        agreement = {motions: self._agreement(labelling) for motions, labelling in best.items()}
+        now = best[min(best)]
+        while True:
+            more = (other for other in best.values() if other.motions > now.motions)
+            following = next((other for other in more if _is_worth_it(now, other, agreement)), None)
+            if following is None:
+                return now
+            now = following
+
+    def _agreement(self, labelling: Labelling) -> float | None:
+        """How much the other views agree with a labelling: the adjusted Rand index that three of four of them reach.
+
+        Each by that of its labellings of as many motions which is most like it. None where fewer than two have one; of
+        a single motion, on which all agree; and of subdivisions, for which no view of the whole take is asked.
+        """
+        views: dict[View, float] = {}
+        for other in self.found.values():
+            if (other.motions, other.subdivided) == (labelling.motions, 0) and other.view != labelling.view:
+                agreement = adjusted_rand_index(labelling.labels, other.labels)
+                views[other.view] = max(views.get(other.view, -1.0), agreement)
+        if labelling.motions == 1 or labelling.subdivided or len(views) < FEWEST_VIEWS:
+            return None
+        return float(np.quantile(list(views.values()), MOST_AGREE))
 
     def _agreed(self, motions: int) -> Labelling:
         """Of the labellings of so many motions hardly cut more than the best, that which agrees most with them.
@@ -122,21 +147,8 @@ class MotionCountSearch:
 EQUAL = 1e-9
 
 
-def _worthiest(best: dict[int, Labelling]) -> Labelling:
-    """From one motion on, the next number at which the motions that came in are worth what they add; the last such."""
-    now = best[min(best)]
-    while True:
-        worth = _worth(now)
-        better = (more for more in best.values() if more.rank - now.rank < worth * (more.motions - now.motions))
-        following = next((more for more in better if more.motions > now.motions), None)
-        if following is None:
-            return now
-        now = following
-
-
-def _worth(found: Labelling) -> float:
-    """What one motion more may add, by what those that are found added on average."""
-    if found.motions == 1:
-        return WORTH
-    average = found.cut / (found.motions - 1)
-    return max(min(WORTH, max(USUAL * average, LEAST_WORTH)), min(DEAR * average, MOST_WORTH))
+def _is_worth_it(now: Labelling, more: Labelling, agreement: Mapping[int, float | None]) -> bool:
+    """Whether the motions that came in add no more than they may; where the views agree on them less, they add more."""
+    before, after = agreement[now.motions], agreement[more.motions]
+    doubt = DISAGREEMENT * (before - after) if before is not None and after is not None else 0.0
+    return more.rank - now.rank + doubt < more.worth * (more.motions - now.motions)

@@ -18,8 +18,11 @@ from caesura.core.kernels import switching
 SAMPLES_PER_SECOND = 10.0
 MOST_SAMPLES = 6000
 NEIGHBOURS = 10
-APART_SECONDS = 2.0
-"""Nearer in time a moment is like itself, which says nothing."""
+APART_SECONDS = 1.25
+"""Nearer in time a moment is like itself, which says nothing. Much farther there is nothing left of a short segment."""
+ALIKE = 0.45
+"""How far apart moments can be and still be alike, as a share of how far all stray from their mean: a motion performed
+once has neighbours too, but none like it."""
 FOLLOWING_SECONDS = 1.5
 """How far the links to what follows reach; together they weigh as much as the links to what is like."""
 DELAY_SECONDS = 0.3
@@ -38,8 +41,8 @@ class NeighbourGraph:
     def of(cls, poses: Float[np.ndarray, "frames D"], frame_rate: float, threads: int = 1) -> "NeighbourGraph":
         """Of poses, at most `MOST_SAMPLES` moments: time and memory grow with the frames no more than to read them.
 
-        A link to one of the 10 most like moments weighs exp(−d² / σσ'), σ being each moment's distance to its fifth
-        nearest (Zelnik-Manor and Perona, 2004).
+        A link to one of the 10 most like moments weighs exp(−d² / σσ'). Each moment's σ is its distance to its fifth
+        nearest (Zelnik-Manor and Perona, 2004), bounded: σ⁻² = distance⁻² + (0.45 s)⁻², s being the deviation of all.
         """
         stride = max(round(frame_rate / SAMPLES_PER_SECOND), -(-len(poses) // MOST_SAMPLES), 1)
         at = np.minimum(np.arange(0, len(poses), stride) + stride // 2, len(poses) - 1)
@@ -85,8 +88,10 @@ def _alike(moments: Float[np.ndarray, "moments D"], apart: int, threads: int) ->
 
     for _ in map_blocks(find_nearest, split_into_blocks(count, BLOCK), threads):
         pass
-    scale = np.sqrt(np.partition(square, near // 2, axis=1)[:, near // 2])
     rounding = 1e-12 * float(squares.mean()) + _TINY
+    fifth = np.partition(square, near // 2, axis=1)[:, near // 2]
+    bound = ALIKE**2 * float(moments.var(axis=0).sum())
+    scale = np.sqrt(fifth * bound / (fifth + bound + rounding))
     weight = np.exp(-square / (scale[:, None] * scale[nearest] + rounding))
     links = sparse.csr_matrix((weight.ravel(), (np.repeat(index, near), nearest.ravel())), (count, count))
     return links + links.T

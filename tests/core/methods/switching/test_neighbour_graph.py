@@ -36,6 +36,22 @@ def test_the_phases_of_a_slow_swing_belong_together():
     assert graph.cut(phases) - graph.cut(np.repeat([0, 1], 360)) > 0.35
 
 
+def performed_once(period):
+    """Four motions of three seconds, each in its own directions and performed once."""
+    random, time = np.random.default_rng(0), np.arange(round(3 * RATE)) / RATE
+    angle = 2 * np.pi * time[:, None] / period
+    poses, cosines, sines = random.normal(0, 1, (3, 4, 8))
+    parts = [1.5 * p + np.sin(angle) * s + np.cos(angle) * c for p, s, c in zip(poses, sines, cosines, strict=True)]
+    return np.concatenate(parts).astype(np.float32), np.repeat(np.arange(4), len(time))
+
+
+@pytest.mark.parametrize("period", [1.3, 1.6, 2.9])
+def test_a_motion_performed_once_is_like_no_other(period):
+    """Its moments have neighbours elsewhere, which are not like it, and repetitions hardly more than a second away."""
+    poses, truth = performed_once(period)
+    assert NeighbourGraph.of(poses, RATE).cut(truth) < 1.4
+
+
 @pytest.mark.parametrize("frames", [1, 2, 5, 30])
 def test_the_shortest_takes_have_a_graph(frames):
     """Even where no two moments are far enough apart to be linked."""
