@@ -18,16 +18,13 @@ from benchmarks.reports.report import ACCURACY, write_section
 from benchmarks.takes.captured_bodies import on_other_bodies
 from benchmarks.takes.real import HALVES, RealTake, real_takes
 from benchmarks.takes.recordings import Recording, recorded_otherwise
-from caesura.api import open_animation
 from caesura.core.agreement import rand_index
 from caesura.core.analysis import Analysis
 from caesura.core.errors import ParameterError
-from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
-from caesura.core.pipeline import analyse, cut
+from caesura.core.pipeline import cut
 from caesura.core.registry.methods import METHODS
 from caesura.core.repetition.repetitions import RepetitionFinder
-from caesura.formats.read import read_animation
 
 NEAR_SECONDS = 0.3
 
@@ -47,10 +44,7 @@ def repetitions(take: RealTake, analysis: Analysis) -> tuple[int, int, int, int]
 
 def recordings(take: RealTake) -> Iterator[tuple[str, Recording]]:
     """The take as it is, by no name, and recorded otherwise; a captured one on other bodies too."""
-    data = {take.path.name: take.path.read_bytes()}
-    animation = read_animation(data, Parameters(), Limits.none(), lambda size: memoryview(bytearray(size)))
-    faces = animation.triangles if len(animation.triangles) else None
-    plain = Recording(np.array(animation.vertices(0, animation.frames)), faces, animation.frame_rate)
+    plain = take.recording()
     yield "", plain
     for name, change in recorded_otherwise().items():
         yield name, change(plain)
@@ -63,8 +57,7 @@ def invariance(take: RealTake) -> Iterator[tuple[str, float, bool]]:
     plain: tuple[float, int] | None = None
     for name, recording in recordings(take):
         at = recording.frame_rate
-        vertices = recording.vertices.astype(np.float32)
-        found = cut(analyse(open_animation(vertices, recording.triangles, frame_rate=at)), Parameters())
+        found = cut(recording.analysis(), Parameters())
         labels = found.labels[::-1] if name == "backwards" else found.labels
         labels = labels[int(at) : -int(at)] if name == "a second of rest" else labels
         rate = take.document["frame_rate"]

@@ -8,11 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from jaxtyping import Bool, Int
 
 from benchmarks.takes.labelled import MODELS
-from caesura.core.agreement import frame_accuracy
+from benchmarks.takes.recordings import Recording
+from benchmarks.takes.true_motions import TrueMotions
 from caesura.core.analysis import Analysis
+from caesura.core.animation import Animation
 from caesura.core.limits import Limits
 from caesura.core.parameters import Parameters
 from caesura.core.pipeline import analyse
@@ -23,30 +24,28 @@ HALVES = ("development", "held out")
 
 
 @dataclass(frozen=True)
-class RealTake:
-    """A take, its true motion per frame, which frames are scored, and the document of its truth."""
+class RealTake(TrueMotions):
+    """A take, its true motions, and the document that tells them."""
 
     path: Path
     kind: str
     half: str
-    truth: Int[np.ndarray, "frames"]
-    scored: Bool[np.ndarray, "frames"]
     document: dict[str, Any]
-
-    @property
-    def motions(self) -> int:
-        """How many there truly are."""
-        return len(np.unique(self.truth[self.scored]))
 
     def analysis(self, parameters: Parameters | None = None) -> Analysis:
         """The analysed take."""
-        data, asked = {self.path.name: self.path.read_bytes()}, parameters or Parameters()
-        animation = read_animation(data, asked, Limits.none(), lambda size: memoryview(bytearray(size)))
-        return analyse(animation, asked)
+        asked = parameters or Parameters()
+        return analyse(self._animation(asked), asked)
 
-    def accuracy(self, labels: Int[np.ndarray, "frames"]) -> float:
-        """Frame accuracy over the scored frames."""
-        return frame_accuracy(labels[self.scored], self.truth[self.scored])
+    def recording(self) -> Recording:
+        """The take as points over time, with the triangles between them where it has a surface."""
+        animation = self._animation(Parameters())
+        faces = animation.triangles if len(animation.triangles) else None
+        return Recording(np.array(animation.vertices(0, animation.frames)), faces, animation.frame_rate)
+
+    def _animation(self, asked: Parameters) -> Animation:
+        data = {self.path.name: self.path.read_bytes()}
+        return read_animation(data, asked, Limits.none(), lambda size: memoryview(bytearray(size)))
 
 
 def real_takes(folder: Path) -> Iterator[RealTake]:
@@ -64,4 +63,4 @@ def real_takes(folder: Path) -> Iterator[RealTake]:
             for start, end in document.get("unlabelled", ()):
                 scored[start:end] = False
             half = HALVES[sorted(set(names)).index(name) % 2]
-            yield RealTake(path, kind, half, truth, scored, document)
+            yield RealTake(truth, scored, path, kind, half, document)

@@ -6,7 +6,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float, Int
 
+from caesura.api import open_animation
+from caesura.core.analysis import Analysis
 from caesura.core.mesh.farthest_points import sample_farthest_points
+from caesura.core.pipeline import analyse
 
 NOISE = 0.0003
 """Of the size of the body."""
@@ -22,6 +25,11 @@ class Recording:
     vertices: Float[np.ndarray, "frames V 3"]
     triangles: Int[np.ndarray, "T 3"] | None
     frame_rate: float
+
+    def analysis(self) -> Analysis:
+        """The analysed points."""
+        vertices = self.vertices.astype(np.float32)
+        return analyse(open_animation(vertices, self.triangles, frame_rate=self.frame_rate))
 
     def moved(self, vertices: Float[np.ndarray, "frames V 3"]) -> "Recording":
         """The same points elsewhere."""
