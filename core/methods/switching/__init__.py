@@ -12,6 +12,7 @@ neighbour_graph    moments, each linked to those most like it; the normalised cu
 subdivision        a motion seen by itself, which may be two
 labellings         the motions of a take as one view shows them, judged by the graph
 motion_count       the labelling of the least cut, and how many motions there are
+frame_vote         cuts put where most labellings have them
 refinement         cuts moved to the frame
 cut_confidence     how sure each cut is
 missed_cuts        where a cut may be missing

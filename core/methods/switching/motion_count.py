@@ -1,12 +1,13 @@
 """The number of motions: of what the views found, the labelling of the least normalised cut, and how many it has."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import product
 
 import numpy as np
 
 from caesura.core.agreement import adjusted_rand_index
+from caesura.core.methods.switching.frame_vote import vote_on_frames
 from caesura.core.methods.switching.labellings import Labelling, Labellings
 from caesura.core.methods.switching.views import View
 
@@ -128,14 +129,16 @@ class MotionCountSearch:
     def _agreed(self, motions: int) -> Labelling:
         """Of the labellings of so many motions hardly cut more than the best, that which agrees most with them.
 
-        Where one view moves a cut or splits a motion, the others seldom do it in the same way.
+        Where one view moves a cut or splits a motion, the others seldom do it in the same way; and they vote on every
+        frame.
         """
         least = self.best()[motions]
         alike = (f for f in self.found.values() if (f.motions, f.subdivided) == (motions, least.subdivided))
         near = [found for found in alike if found.cut <= least.cut + NEAR]
         near = sorted(near, key=lambda found: found.cut)[:MOST_VOTES]
         agreement = [sum(adjusted_rand_index(one.labels, other.labels) for other in near) for one in near]
-        return near[int(np.argmax(np.array(agreement) >= max(agreement) - EQUAL))]
+        most = near[int(np.argmax(np.array(agreement) >= max(agreement) - EQUAL))]
+        return replace(most, labels=vote_on_frames(most.labels, (other.labels for other in near)))
 
     def scores(self) -> tuple[tuple[int, float], ...]:
         """What each number of motions tried leaves unexplained in the first view, as a share of what one does."""
