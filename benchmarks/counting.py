@@ -3,7 +3,8 @@
     python -m benchmarks.counting ../shared/data/gltf/Fox.glb ../shared/data/gltf/godotman.glb
 
 Figures perform choreographies, creatures and the files given are joined from their clips (as many as they have), all
-by seeds kept back; the long session is of 72,000 frames. Writes its table into docs/accuracy.md, or with `--print` not.
+by seeds that nobody looked at; the long sessions are of 12,000 and 72,000 frames. Writes its table into
+docs/accuracy.md, or with `--print` not.
 """
 
 import argparse
@@ -23,19 +24,20 @@ from caesura.core.pipeline import cut
 from caesura.samples.long_session import long_session
 
 COUNTS = (3, 8, 15, 30)
-FIRST_SEED = 401
+FIRST_SEED = 1001
+"""Takes of seeds below were looked at while constants were fixed."""
 ALLOWED = 0.1
 """Of the true number: farther off is a miss."""
 HEAD = """| take | frames | motions | found | | frame accuracy | s to cut |
 |---|---|---|---|---|---|---|"""
 
 
-def takes(files: list[Path], seeds: int, sessions: list[int]) -> Iterator[Known]:
+def takes(files: list[Path], first: int, seeds: int, sessions: list[int]) -> Iterator[Known]:
     """Every take, one at a time: long ones need room."""
     for count in COUNTS:
-        yield from islice(kept_back(FIRST_SEED + 10 * count, motions=count), 2 * seeds)
+        yield from islice(kept_back(first + 10 * count, motions=count), 2 * seeds)
     for file in files:
-        for seed in range(FIRST_SEED, FIRST_SEED + seeds):
+        for seed in range(first, first + seeds):
             made = joined(file.name, file.read_bytes(), COUNTS[-1], seed)
             yield Known.of_joined(f"{file.stem} {seed}", "joined", made)
     for frames in sessions:
@@ -75,13 +77,14 @@ def main() -> None:
     """Prints a line as soon as it is known, then writes them all."""
     options = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     options.add_argument("files", type=Path, nargs="*", help="glTF files with several clips, to be joined")
+    options.add_argument("--first-seed", type=int, default=FIRST_SEED, help="of the takes that seeds make")
     options.add_argument("--seeds", type=int, default=3, help="takes of each kind and number")
     options.add_argument("--sessions", default="12000,72000", help="frames of the long sessions, by commas")
     options.add_argument("--print", action="store_true", help="print only")
     given = options.parse_args()
     print(HEAD)
     lines, counts = [], []
-    for known in takes(given.files, given.seeds, [int(n) for n in given.sessions.split(",") if n]):
+    for known in takes(given.files, given.first_seed, given.seeds, [int(n) for n in given.sessions.split(",") if n]):
         line, true, found = row(known)
         print(line, flush=True)
         lines.append(line)
