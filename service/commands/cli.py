@@ -1,4 +1,4 @@
-"""`caesura`: the command. Each subcommand lives in service/commands."""
+"""`caesura`: the command. Each subcommand lives in a file here, those of takes cut together in `joint`."""
 
 import io
 import sys
@@ -8,11 +8,11 @@ import click
 from caesura.service.commands.compare import compare
 from caesura.service.commands.demo import demo
 from caesura.service.commands.exit_codes import EXIT_CODES
-from caesura.service.commands.find import find
 from caesura.service.commands.formats import formats
+from caesura.service.commands.joint.find import find
+from caesura.service.commands.joint.rename import rename
 from caesura.service.commands.keys import keys
 from caesura.service.commands.options import with_dashes
-from caesura.service.commands.rename import rename
 from caesura.service.commands.score import score
 from caesura.service.commands.segment import segment
 from caesura.service.commands.serve import serve

@@ -6,7 +6,7 @@ from pathlib import Path
 import click
 
 from caesura.service.commands.exit_codes import Command
-from caesura.service.commands.find import FOLDER
+from caesura.service.commands.joint.find import FOLDER
 from caesura.service.commands.joint.motion_names import parse_names
 from caesura.worker.control_characters import escape_control_characters
 
