@@ -104,7 +104,7 @@ bench: setup
 	$(BIN)/python -m benchmarks.counting $(JOIN)
 	$(if $(CMU),$(BIN)/python -m benchmarks.paper.aca_authors --cmu $(CMU))
 	$(if $(REAL),$(BIN)/python -m benchmarks.real $(REAL) --methods switching,joint-entropy,luo2014,spectral,aca,haca --invariance 1)
-	$(if $(REAL),$(BIN)/python -m benchmarks.parts $(REAL))
+	$(if $(REAL),$(BIN)/python -m benchmarks.real.parts $(REAL))
 	$(BIN)/python -m benchmarks.accuracy $(TAKES) $(if $(CMU),--cmu $(CMU)) $(if $(PEERS),--peers $(PEERS)) --figures --held-back 4 --seeds 3
 
 fuzz: setup

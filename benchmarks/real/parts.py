@@ -1,6 +1,6 @@
 """How many motions are found in parts of takes that nobody made for it: another take, and another number, each.
 
-    python -m benchmarks.parts ../shared/data/real
+    python -m benchmarks.real.parts ../shared/data/real
 
 A folder as for `benchmarks.real`; its sheets are left out. Writes its table into docs/accuracy.md, or with `--print`
 not.
