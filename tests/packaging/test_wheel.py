@@ -31,7 +31,7 @@ def wheel(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def locked(checkout: Path) -> list[Distribution]:
     """The distributions of the runtime's lock that belong on this machine, as they are installed here by digest."""
     found = []
-    for name, marker in LOCKED.findall((checkout / "requirements.runtime.lock").read_text(encoding="utf-8")):
+    for name, marker in LOCKED.findall((checkout / "locks/runtime.lock").read_text(encoding="utf-8")):
         requirement = Requirement(name + marker)
         if requirement.marker is None or requirement.marker.evaluate():
             here = distribution(requirement.name)
