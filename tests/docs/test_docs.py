@@ -18,21 +18,15 @@ from caesura.service.commands.exit_codes import EXIT_CODES
 from caesura.service.problems.status_table import STATUS_OF_CODE
 from caesura.service.settings import ServiceSettings
 
-PAGES = sorted(p.relative_to(Path(__file__).parents[2]) for p in Path(__file__).parents[2].glob("docs/**/*.md"))
+ROOT = Path(__file__).parents[2]
+PAGES = sorted(path.relative_to(ROOT) for path in ROOT.glob("docs/**/*.md"))
 PAGES += [Path("README.md"), Path("CHANGELOG.md"), Path("CONTRIBUTING.md")]
 RAISED = re.compile(
     r"\b(?:InputError|UnsupportedMedia|BrokenContainer|InvalidModel|LimitExceeded|ParameterError|RequestProblem|worker_problem)"
     r'\(\s*"([a-z0-9-]+)"'
 )
 LARGE_READERS = {"alembic3d", "usd-core"}
-LOCKS = [
-    "locks/development.lock",
-    "locks/runtime.lock",
-    "locks/notebook.lock",
-    "locks/docs.lock",
-    "locks/audit.lock",
-    "package-lock.json",
-]
+LOCKS = [*sorted(path.relative_to(ROOT) for path in ROOT.glob("locks/*.lock")), Path("package-lock.json")]
 
 
 def blocks(page: str) -> str:
@@ -79,8 +73,8 @@ def test_commands_exist(checkout: Path, page: Path) -> None:
     assert set(re.findall(r"(?<!from )\bcaesura ([a-z]+)", code)) <= set(main.commands)
 
 
-@pytest.mark.parametrize("lock", LOCKS)
-def test_locks_name_no_registry(checkout: Path, lock: str) -> None:
+@pytest.mark.parametrize("lock", LOCKS, ids=str)
+def test_locks_name_no_registry(checkout: Path, lock: Path) -> None:
     """What is locked are names, versions and digests: whoever installs chooses where from."""
     assert "://" not in (checkout / lock).read_text(encoding="utf-8")
 

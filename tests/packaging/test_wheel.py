@@ -2,6 +2,7 @@
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import venv
@@ -67,6 +68,21 @@ def test_the_wheel_has_the_page_and_no_more(wheel: Path) -> None:
     assert [name for name in names if name.startswith("caesura/service/static/vendor/three/")]
     tops = {name.split("/")[0] for name in names}
     assert tops == {"caesura", f"caesura-{wheel.name.split('-')[1]}.dist-info"}
+
+
+def test_the_image_builds_the_same_wheel(checkout: Path, wheel: Path, tmp_path: Path) -> None:
+    """Of what .dockerignore lets in; and all that the Dockerfile copies from the checkout is let in."""
+    source = tmp_path / "source"
+    let_in = re.findall(r"^!(.+)$", (checkout / ".dockerignore").read_text(encoding="utf-8"), re.MULTILINE)
+    for name in let_in:
+        if (checkout / name).is_dir():
+            shutil.copytree(checkout / name, source / name, symlinks=True)
+        else:
+            shutil.copy(checkout / name, source / name)
+    dockerfile = (checkout / "Dockerfile").read_text(encoding="utf-8")
+    assert all((source / name).exists() for name in re.findall(r"^COPY ([^- ]\S*) ", dockerfile, re.MULTILINE))
+    built = build(source, tmp_path / "built", "wheel")
+    assert sorted(zipfile.ZipFile(built).namelist()) == sorted(zipfile.ZipFile(wheel).namelist())
 
 
 @pytest.mark.release
