@@ -1,9 +1,14 @@
 """Steps that several journeys through the page share."""
 
 import re
+import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeVar
 
 from playwright.sync_api import Page, expect
+
+Seen = TypeVar("Seen")
 
 
 def opened(page: Page, file: Path) -> str:
@@ -13,6 +18,14 @@ def opened(page: Page, file: Path) -> str:
     expect(page.locator("#segments li").first).to_be_visible(timeout=90_000)
     expect(page.locator("#figure")).to_have_attribute("data-shown", re.compile("gltf|vertices"), timeout=30_000)
     return page.url
+
+
+def seen_once(page: Page, look: Callable[[], Seen], is_right: Callable[[Seen], bool]) -> Seen:
+    """What `look` sees as soon as it is right, which on a busy machine is late; after half a minute, what it sees."""
+    until = time.monotonic() + 30
+    while not is_right(seen := look()) and time.monotonic() < until:
+        page.wait_for_timeout(100)
+    return seen
 
 
 def starts(page: Page) -> list[int]:

@@ -8,7 +8,7 @@ from playwright.sync_api import BrowserType, Page, expect
 
 from tests.browser.conftest import SOFTWARE_WEBGL, tab
 from tests.browser.drawn import body, ellipsoid, extent, jointed_bar, picture
-from tests.browser.journeys import opened, saved
+from tests.browser.journeys import opened, saved, seen_once
 from tests.formats.playback.test_materials import painted
 
 pytestmark = pytest.mark.timeout(240)
@@ -103,15 +103,19 @@ def test_a_model_has_the_images_of_its_author(page: Page, tmp_path: Path, *, sof
     file = tmp_path / f"strip-{software}.glb"
     file.write_bytes(model.glb())
     opened(page, file)
-    page.wait_for_timeout(500)
-    red = picture(page)[..., :3]
-    where = body(picture(page))
+    red = seen_once(page, lambda: picture(page), lambda drawn: bool((body(drawn) & is_red(drawn)).any()))
+    where = body(red)
     assert where.sum() > 100
-    own = red[where].mean(0)
+    own = red[where][:, :3].mean(0)
     assert own[0] > 2.5 * own[1:].max()
     page.get_by_text("Motion", exact=True).click()
     coloured = picture(page)[where][:, :3].mean(0)
     assert coloured[2] > own[2] + 40  # the first motion is blue
+
+
+def is_red(drawn: np.ndarray) -> np.ndarray:
+    """Where a picture is red."""
+    return np.asarray(drawn[..., 0] > 2.5 * drawn[..., 1:3].max(-1))
 
 
 def test_ghosts_show_the_poses_of_the_key_frames(page: Page, smooth: Path) -> None:

@@ -38,8 +38,7 @@ def test_labels_that_the_service_wrote_agree_wholly(result: Page, tmp_path: Path
         f"labels.{form}: 100 % of its frames agree. {cuts} of its {cuts} cuts"
     )
     expect(result.locator("#labels")).to_be_visible()
-    result.wait_for_timeout(100)
-    assert result.evaluate(DRAWN) >= 4
+    result.wait_for_function(f"({DRAWN})() >= 4")
     result.locator("#labels-close").click()
     expect(result.locator("#labels")).to_be_hidden()
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.journeys import opened, saved
+from tests.browser.journeys import opened, saved, seen_once
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -35,8 +35,7 @@ def test_motions_open_to_their_segments(result: Page) -> None:
     assert names(result) == sorted(names(result))
     drawn = "(canvas) => new Uint32Array(canvas.getContext('2d').getImageData(0, 0, 96, 72).data.buffer).some(Boolean)"
     expect(result.locator("#figure")).to_have_attribute("data-shown", "gltf")
-    result.wait_for_timeout(2000)
-    assert heads.first.locator("canvas").evaluate(drawn)
+    assert seen_once(result, lambda: heads.first.locator("canvas").evaluate(drawn), bool)
     before = result.locator("#segments .segment:visible").count()
     result.locator("#segments .fold").first.click()
     assert result.locator("#segments .segment:visible").count() < before

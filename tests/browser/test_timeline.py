@@ -1,12 +1,14 @@
 """The timeline: an overview, zooming to a segment, pictures, and tools that stand at what is selected."""
 
+from collections.abc import Callable
+from itertools import cycle
 from pathlib import Path
 
 import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.journeys import cut_x, opened, starts
+from tests.browser.journeys import cut_x, opened, seen_once, starts
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -26,8 +28,7 @@ def result(kept_page: Page, smooth: Path) -> Page:
 
 
 def frames_shown(page: Page) -> list[int]:
-    """The numbers along the axis of the curve."""
-    page.wait_for_timeout(100)
+    """The first frame that is shown and the last, as the pointer tells there."""
     row = page.locator("#timeline").bounding_box()
     assert row is not None
     seen = []
@@ -39,13 +40,18 @@ def frames_shown(page: Page) -> list[int]:
     return seen
 
 
+def first_shown(page: Page, is_right: Callable[[int], bool]) -> int:
+    """The first frame that is shown, once it is right."""
+    return seen_once(page, lambda: frames_shown(page)[0], is_right)
+
+
 def test_a_double_click_shows_a_segment_alone_and_again_the_whole_take(result: Page) -> None:
     """So do a key and a button; the overview stays whole, and its window is dragged along."""
     before = starts(result)
     row = result.locator("#timeline").bounding_box()
     assert row is not None
     result.mouse.dblclick(cut_x(result, before[2] + 40), row["y"] + 40)
-    first, last = frames_shown(result)
+    first, last = seen_once(result, lambda: frames_shown(result), lambda seen: seen[0] > before[2] - 25)
     assert before[2] - 25 < first <= before[2]
     assert before[3] <= last < before[3] + 25
     overview = result.locator("#overview").bounding_box()
@@ -53,23 +59,21 @@ def test_a_double_click_shows_a_segment_alone_and_again_the_whole_take(result: P
     result.mouse.move(overview["x"] + overview["width"] * 0.8, overview["y"] + 8)
     result.mouse.down()
     result.mouse.up()
-    assert frames_shown(result)[0] > before[4]
+    assert first_shown(result, lambda first: first > before[4]) > before[4]
     result.keyboard.press("z")
-    assert frames_shown(result)[0] < before[4]
+    assert first_shown(result, lambda first: first < before[4]) < before[4]
     result.locator("#zoom-fit").click()
-    assert frames_shown(result)[0] < 12
+    assert first_shown(result, lambda first: first < 12) < 12
 
 
 def test_segments_have_pictures(result: Page) -> None:
     """In the timeline, and in what the pointer shows; many more colours than those of the boxes."""
-    result.wait_for_timeout(2500)
-    assert result.evaluate(TRACK) > 200
+    result.wait_for_function(f"({TRACK})() > 200")
     row = result.locator("#timeline").bounding_box()
     assert row is not None
-    result.mouse.move(cut_x(result, 60), row["y"] + 10)
-    result.wait_for_timeout(1500)
-    result.mouse.move(cut_x(result, 64), row["y"] + 10)
-    expect(result.locator("#hover-picture canvas")).to_be_visible()
+    picture = result.locator("#hover-picture canvas")
+    places = cycle([cut_x(result, 60), cut_x(result, 64)])
+    assert seen_once(result, lambda: result.mouse.move(next(places), row["y"] + 10) or picture.is_visible(), bool)
 
 
 def test_the_tools_stand_under_what_is_selected_and_are_of_one_kind(result: Page) -> None:

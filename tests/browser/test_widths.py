@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser.journeys import opened
+from tests.browser.journeys import opened, seen_once
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -33,16 +33,6 @@ def result(kept_page: Page, own: Path) -> Page:
     return kept_page
 
 
-def settled(page: Page) -> list[str]:
-    """What sticks out once the curve has taken its new width, which a busy machine draws late."""
-    for _ in range(30):
-        found: list[str] = page.evaluate(STICKING_OUT)
-        if not found:
-            break
-        page.wait_for_timeout(100)
-    return found
-
-
 @pytest.mark.parametrize("width", [360, 400, 820, 1280])
 def test_nothing_sticks_out_of_its_part_of_the_page(result: Page, width: int) -> None:
     """With names as long as they get, while a moment is shown and while a cut is."""
@@ -50,8 +40,8 @@ def test_nothing_sticks_out_of_its_part_of_the_page(result: Page, width: int) ->
     for key in ("Escape", "]"):
         result.keyboard.press(key)
         result.wait_for_timeout(200)
+        assert seen_once(result, lambda: result.evaluate(STICKING_OUT), lambda found: not found) == []
         assert result.evaluate("document.documentElement.scrollWidth") <= width
-        assert settled(result) == []
     expect(result.locator("#merge")).to_be_in_viewport()
 
 

@@ -5,6 +5,8 @@ import re
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.browser.journeys import seen_once
+
 pytestmark = pytest.mark.timeout(240)
 
 HEAD = "parseFloat(document.getElementById('demo-head').style.left)"
@@ -17,12 +19,10 @@ def test_what_one_gets_moves_in_a_loop_and_stops_for_who_wants_no_motion(page: P
     expect(page.locator("#demo-clips li")).to_have_text([re.compile(r"^\w+_0\d")] * 6)
     expect(page.locator("#demo-clips .now")).to_have_count(1)
     first = page.evaluate(HEAD)
-    page.wait_for_timeout(500)
-    assert page.evaluate(HEAD) > first
-    seen = [page.locator("#demo-figure").screenshot()]
-    page.wait_for_timeout(300)
-    seen.append(page.locator("#demo-figure").screenshot())
-    assert seen[0] != seen[1]
+    page.wait_for_function(f"{HEAD} > {first}")
+    figure = page.locator("#demo-figure")
+    before = figure.screenshot()
+    assert seen_once(page, figure.screenshot, lambda now: now != before) != before
     page.get_by_role("button", name="Pause", exact=True).click()
     page.wait_for_timeout(200)
     rest = page.evaluate(HEAD)
