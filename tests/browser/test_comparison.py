@@ -10,7 +10,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.drawn import FRAMES, bar_that_turns, body, picture
-from tests.browser.journeys import opened
+from tests.browser.journeys import opened, seen_once
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -67,7 +67,7 @@ def test_the_segments_of_a_motion_stand_side_by_side(result: Page) -> None:
     result.locator("#compare").select_option("beside")
     expect(result.locator("#pair p")).to_have_count(times)
     expect(result.locator("#pair .current")).to_contain_text(f"1 of {times}")
-    assert columns(result) == times
+    assert seen_once(result, lambda: columns(result), lambda count: count == times) == times
     result.keyboard.press("Space")
     result.wait_for_timeout(1500)
     expect(result.locator("#pair p")).to_have_count(times)
