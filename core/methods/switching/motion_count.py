@@ -117,14 +117,14 @@ class MotionCountSearch:
         Each by that of its labellings of as many motions which is most like it. None where fewer than two have one; of
         a single motion, on which all agree; and of subdivisions, for which no view of the whole take is asked.
         """
+        if labelling.motions == 1 or labelling.subdivided:
+            return None
         views: dict[View, float] = {}
         for other in self.found.values():
             if (other.motions, other.subdivided) == (labelling.motions, 0) and other.view != labelling.view:
                 agreement = adjusted_rand_index(labelling.labels, other.labels)
                 views[other.view] = max(views.get(other.view, -1.0), agreement)
-        if labelling.motions == 1 or labelling.subdivided or len(views) < FEWEST_VIEWS:
-            return None
-        return float(np.quantile(list(views.values()), MOST_AGREE))
+        return float(np.quantile(list(views.values()), MOST_AGREE)) if len(views) >= FEWEST_VIEWS else None
 
     def _agreed(self, motions: int) -> Labelling:
         """Of the labellings of so many motions hardly cut more than the best, that which agrees most with them.

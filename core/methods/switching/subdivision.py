@@ -40,7 +40,7 @@ def _labels_in_views(
 def _divide(
     views: Views, view: View, of_step: Int[np.ndarray, "steps"], motion: int
 ) -> tuple[View, Int[np.ndarray, "frames"]] | None:
-    """The labels with one motion cut into two; None where it is short, or where all of it is alike."""
+    """The labels with one motion cut into two; None where it is short, or where no half lasts a window anywhere."""
     signal, steps = views.by(view).signal, np.flatnonzero(of_step == motion)
     alone = views.within(view, steps) if len(steps) >= LEAST_WINDOWS * signal.window else None
     halves = alone.settled(2) if alone is not None else None
@@ -49,6 +49,8 @@ def _divide(
     second = halves.labels == 1
     for performed in np.split(second, np.flatnonzero(np.diff(steps) > 1) + 1):
         _merge_short_pieces(performed, signal.window)
+    if second.all() or not second.any():
+        return None
     divided = of_step.copy()
     divided[steps[second]] = of_step.max() + 1
     return view, signal.per_frame(divided)

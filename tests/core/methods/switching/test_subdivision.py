@@ -3,8 +3,10 @@
 import numpy as np
 
 from caesura.core.agreement import frame_accuracy
+from caesura.core.methods.switching.labellings import Labelling, Labellings
+from caesura.core.methods.switching.refinement import Refinement
 from caesura.core.methods.switching.subdivision import subdivide_motions
-from caesura.core.methods.switching.views import Frames, Views
+from caesura.core.methods.switching.views import VIEWS, Frames, Views
 from tests.core.methods.test_switching import RATE, analysis_of, cut
 
 LARGE, SMALL = 40.0, 0.8
@@ -44,3 +46,26 @@ def test_no_half_of_a_motion_is_shorter_than_a_window():
     for view, labels in divided:
         bounds = np.flatnonzero(np.diff(labels, prepend=-1, append=-1))
         assert np.diff(bounds).min() >= view.seconds * RATE - 2 * STEP
+
+
+class CountedRefinement(Refinement):
+    """Counts what it refines."""
+
+    refined = 0
+
+    def moved(self, labels):
+        """As it does."""
+        type(self).refined += 1
+        return super().moved(labels)
+
+
+def test_a_subdivision_that_is_far_too_dear_is_not_refined():
+    """Refining takes time. Two halves of motions have a window somewhere: one is worth half as much, one too little."""
+    values, truth = one_large_and_three_small(seed=2)
+    merged = np.where(truth == 0, 0, 1)
+    frames = Frames.of(analysis_of(values))
+    labellings = Labellings(Views(frames), CountedRefinement.of(frames.values, frames.frame_rate))
+    whole = Labelling(merged, (), VIEWS[0], labellings.graph.cut(merged), 2, 0.0, 10.0)
+    assert len(list(subdivide_motions(merged, labellings.views))) == 2
+    assert [found.motions for found in labellings.subdivisions(whole)] == [3]
+    assert CountedRefinement.refined == 1
