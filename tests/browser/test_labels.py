@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.journeys import opened, saved, starts
+from tests.browser.journeys import opened, saved, seen_once, starts
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -38,7 +38,7 @@ def test_labels_that_the_service_wrote_agree_wholly(result: Page, tmp_path: Path
         f"labels.{form}: 100 % of its frames agree. {cuts} of its {cuts} cuts"
     )
     expect(result.locator("#labels")).to_be_visible()
-    result.wait_for_function(f"({DRAWN})() >= 4")
+    assert seen_once(result, lambda: result.evaluate(DRAWN), lambda colours: colours >= 4) >= 4
     result.locator("#labels-close").click()
     expect(result.locator("#labels")).to_be_hidden()
 

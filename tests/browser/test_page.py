@@ -63,6 +63,7 @@ def test_the_figure_is_drawn_and_strain_colours_it(result: Page) -> None:
     """There are opaque pixels in the 3D view, and warm ones as soon as the body bends."""
     result.locator("#frame").fill("60")
     result.locator("#frame").press("Enter")
+    result.get_by_text("Model", exact=True).click()
     plain = figure_pixels(result)
     body = plain[..., 3] > 250
     assert 0.02 < body.mean() < 0.6

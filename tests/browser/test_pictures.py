@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser.journeys import opened
+from tests.browser.journeys import opened, seen_once
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -30,7 +30,7 @@ def test_pictures_are_there_before_the_figure_and_on_the_card(
     again.route("**/viewer/model", lambda route: route.abort())
     again.goto(f"/view/{identifier}")
     expect(again.locator("#stage-note")).to_contain_text("cannot show the figure")
-    again.wait_for_function(DRAWN)
+    assert seen_once(again, lambda: again.evaluate(DRAWN), bool)
     assert again.locator("#segments canvas").count() > 4
     again.goto("/")
     card = again.locator("#recent-cards .card", has_text="pictured.glb")

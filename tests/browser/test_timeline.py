@@ -68,12 +68,18 @@ def test_a_double_click_shows_a_segment_alone_and_again_the_whole_take(result: P
 
 def test_segments_have_pictures(result: Page) -> None:
     """In the timeline, and in what the pointer shows; many more colours than those of the boxes."""
-    result.wait_for_function(f"({TRACK})() > 200")
+    assert seen_once(result, lambda: result.evaluate(TRACK), lambda colours: colours > 200) > 200
     row = result.locator("#timeline").bounding_box()
     assert row is not None
     picture = result.locator("#hover-picture canvas")
     places = cycle([cut_x(result, 60), cut_x(result, 64)])
-    assert seen_once(result, lambda: result.mouse.move(next(places), row["y"] + 10) or picture.is_visible(), bool)
+
+    def pointed() -> bool:
+        result.mouse.move(next(places), row["y"] + 10)
+        result.wait_for_timeout(500)  # it is drawn where the pointer rests
+        return picture.is_visible()
+
+    assert seen_once(result, pointed, bool)
 
 
 def test_the_tools_stand_under_what_is_selected_and_are_of_one_kind(result: Page) -> None:

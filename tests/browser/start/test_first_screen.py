@@ -19,7 +19,7 @@ def test_what_one_gets_moves_in_a_loop_and_stops_for_who_wants_no_motion(page: P
     expect(page.locator("#demo-clips li")).to_have_text([re.compile(r"^\w+_0\d")] * 6)
     expect(page.locator("#demo-clips .now")).to_have_count(1)
     first = page.evaluate(HEAD)
-    page.wait_for_function(f"{HEAD} > {first}")
+    assert seen_once(page, lambda: page.evaluate(HEAD), lambda now: now > first) > first
     figure = page.locator("#demo-figure")
     before = figure.screenshot()
     assert seen_once(page, figure.screenshot, lambda now: now != before) != before
