@@ -7,13 +7,14 @@ import { motionColour, writeTag } from '../palette.js';
 import { sampleBytes, sampleIndex } from './samples.js';
 
 const SHORTEST = 30; // ms between two pictures
+const SHORTEST_BY_SOFTWARE = 120; // that draws them with all processors, while somebody may have a take cut
 const REST = 2; // so many times as long as a picture takes to draw passes until the next, at least
 
 const stillness = matchMedia('(prefers-reduced-motion: reduce)');
 
 const asked = () => document.body.dataset.view === 'start';
 let paused = stillness.matches;
-let stage = null; // what is drawn with, once it is loaded: `{ scene, sample }`
+let stage = null; // what is drawn with, once it is loaded: `{ scene, shortest, sample }`
 let position = 0;
 
 /** Show the demonstration; on other views nothing is drawn. */
@@ -26,18 +27,19 @@ export async function showDemonstration() {
   await new Promise((done) => setTimeout(done, 200)); // a person who opens something at once waits for no figure
   if (!asked() || stage) return;
   stage = { sample, scene: null };
-  stage.scene = await load(sample).catch(() => null); // without WebGL the strip and the clips say it
+  Object.assign(stage, await load(sample).catch(() => null)); // without WebGL the strip and the clips say it
   document.body.classList.toggle('no-demonstration', !stage.scene);
   run();
 }
 
 async function load(sample) {
   const [{ FigureScene }, model, renderer] = await Promise.all([import('../figure/scene.js'), sampleBytes(sample), probeRenderer()]);
-  const scene = new FigureScene($('demo-figure'), isSoftware(renderer), { turns: false });
+  const software = isSoftware(renderer);
+  const scene = new FigureScene($('demo-figure'), software, { turns: false });
   const viewer = { kind: 'gltf', skeleton: false, start_seconds: 0, frame_rate: sample.frame_rate };
   await scene.show(viewer, { model, strain: null }, new AbortController().signal);
   $('demo-figure').dataset.shown = 'gltf';
-  return scene;
+  return { scene, shortest: software ? SHORTEST_BY_SOFTWARE : SHORTEST };
 }
 
 /** Write the segments below the figure, as a strip and as the clips they become. */
@@ -79,13 +81,13 @@ function run() {
   running = true;
   let last = performance.now();
   const step = (now) => {
-    const { scene, sample: { segments, frames, frame_rate: rate } } = stage;
+    const { scene, shortest, sample: { segments, frames, frame_rate: rate } } = stage;
     running = asked() && !paused && !document.hidden;
     position = (position + (Math.min(200, now - last) / 1000) * rate) % frames;
     last = now;
     const { motion } = show(segments, frames);
     const cost = scene.drawNow([{ position, colouring: motionColour(motion) }]);
-    if (running) setTimeout(() => requestAnimationFrame(step), Math.max(SHORTEST, REST * cost) - 16);
+    if (running) setTimeout(() => requestAnimationFrame(step), Math.max(shortest, REST * cost) - 16);
   };
   requestAnimationFrame(step);
 }
