@@ -151,13 +151,16 @@ def test_a_silent_server_is_left_and_others_wait_their_turn(fetching):
         waiting = [threading.Thread(target=fetched, args=(fetching, url)) for _ in range(4)]
         for one in waiting:
             one.start()
-        time.sleep(1)
+        silent.settimeout(20)
+        held = [silent.accept()[0] for _ in waiting]
         answer = fetched(fetching, url)
         assert (answer.status_code, answer.json()["code"]) == (503, "too-many-fetches")
         began = time.monotonic()
         for one in waiting:
             one.join(30)
         assert time.monotonic() - began < 15
+        for connection in held:
+            connection.close()
     assert fetched(fetching, f"http://{SITE}:1/").json()["code"] == "fetch-failed"
 
 

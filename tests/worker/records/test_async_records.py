@@ -18,13 +18,37 @@ def reading(idle, use):
     return asyncio.run(main())
 
 
+async def once(look, is_right):
+    """What is seen as soon as it is right; after ten seconds, what is seen."""
+    for _ in range(200):
+        seen = await look()
+        if is_right(seen):
+            break
+        await asyncio.sleep(0.05)
+    return seen
+
+
+async def heard_channels(records, *counts):
+    """How many channels somebody listens to, once it is one of these numbers."""
+
+    async def look():
+        return len(await records.redis.pubsub_channels("caesura:changed:?*"))
+
+    return await once(look, lambda heard: heard in counts)
+
+
+async def reads(records):
+    """How often anything was read."""
+    return (await records.redis.info("commandstats")).get("cmdstat_get", {"calls": 0})["calls"]
+
+
 def test_waiting_is_woken_by_the_change(idle, take):
     """A cancelled job is told at once, not at the next look."""
     record = idle.submit(idle.upload(take))
 
     async def use(records):
         waiting = asyncio.create_task(records.wait_until_ended(record.id))
-        await asyncio.sleep(0.2)
+        await heard_channels(records, 1)
         await asyncio.to_thread(idle.jobs.cancel, record.id)
         began = time.monotonic()
         return await waiting, time.monotonic() - began
@@ -39,15 +63,15 @@ def test_waiting_sleeps_through_progress(idle, take):
     record = idle.submit(idle.upload(take))
 
     async def use(records):
+        asleep = await reads(records)
         waiting = asyncio.create_task(records.wait_until_ended(record.id))
-        await asyncio.sleep(0.2)
-        before = (await records.redis.info("commandstats"))["cmdstat_get"]["calls"]
+        before = await once(lambda: reads(records), lambda count: count > asleep)
         idle.records.attempts.begin(record.id, record.token)
         for number in range(9):
             idle.records.attempts.change(record.id, record.token, stage="strain", fraction=number / 10)
         idle.records.attempts.fail(record.id, record.token, {"kind": "input", "code": "no-motion", "detail": ""})
         told = await waiting
-        return told.status, (await records.redis.info("commandstats"))["cmdstat_get"]["calls"] - before
+        return told.status, await reads(records) - before
 
     of_changes = 1 + 9 + 1
     assert reading(idle, use) == ("failed", of_changes + 1)
@@ -59,17 +83,15 @@ def test_all_who_wait_listen_on_one_connection(idle, take):
 
     async def use(records):
         waiting = [asyncio.create_task(records.wait_until_ended(record.id)) for record in waited * 4]
-        await asyncio.sleep(0.3)
-        heard = await records.redis.pubsub_channels("caesura:changed:?*")
+        heard = await heard_channels(records, 5)
         listening = [one for one in await records.redis.client_list() if int(one["sub"])]
         for record in waited:
             await asyncio.to_thread(idle.jobs.cancel, record.id)
         told = await asyncio.gather(*waiting)
         late = asyncio.create_task(records.wait_until_ended("nobody's"))
         await late
-        await asyncio.sleep(0.2)
-        left = await records.redis.pubsub_channels("caesura:changed:?*")
-        return len(heard), len(listening), {record.status for record in told}, len(left)
+        left = await heard_channels(records, 0, 1)
+        return heard, len(listening), {record.status for record in told}, left
 
     heard, listening, told, left = reading(idle, use)
     assert (heard, listening, told) == (5, 1, {"cancelled"})
@@ -82,11 +104,10 @@ def test_waiting_outlives_a_broken_connection(idle, take):
 
     async def use(records):
         waiting = asyncio.create_task(records.wait_until_ended(record.id))
-        await asyncio.sleep(0.2)
+        await heard_channels(records, 1)
         for one in await records.redis.client_list():
             if int(one["sub"]):
                 await records.redis.client_kill_filter(_id=one["id"])
-        await asyncio.sleep(0.2)
         await asyncio.to_thread(idle.jobs.cancel, record.id)
         return await asyncio.wait_for(waiting, 10)
 
