@@ -13,6 +13,7 @@ from playwright.sync_api import Browser, BrowserType, Page, expect, sync_playwri
 
 SOFTWARE_WEBGL = [
     "--use-angle=swiftshader",
+    "--disable-gpu-compositing",  # else the whole page is put together by software WebGL: a third more of the time
     "--enable-unsafe-swiftshader",
     "--disable-lcd-text",
     "--force-color-profile=srgb",
