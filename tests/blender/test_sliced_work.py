@@ -25,7 +25,7 @@ def test_a_slice_ends_after_its_budget_and_says_how_long_it_took():
 
     work, slices = finish(steps())
     assert slices > 3
-    assert work.longest >= BUDGET
+    assert BUDGET <= work.longest < 0.1
 
 
 def test_a_slice_ends_where_the_work_has_to_wait():

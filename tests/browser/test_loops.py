@@ -21,7 +21,7 @@ PLAYED = """async ([base64, name, rate]) => {
     const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
     const gltf = await new GLTFLoader().parseAsync(bytes.buffer, '');
     const renderer = new three.WebGLRenderer({ canvas: document.createElement('canvas'), preserveDrawingBuffer: true });
-    renderer.setSize(96, 96, false);
+    renderer.setSize(160, 160, false);
     const scene = new three.Scene();
     scene.add(gltf.scene, new three.HemisphereLight(0xffffff, 0x444444, 3));
     const box = new three.Box3().setFromObject(gltf.scene);
@@ -39,8 +39,8 @@ PLAYED = """async ([base64, name, rate]) => {
     const step = clip.duration / frames;
     for (let frame = 0; frame < 2 * frames; frame++) {
         renderer.render(scene, camera);
-        const data = new Uint8Array(96 * 96 * 4);
-        gl.readPixels(0, 0, 96, 96, gl.RGBA, gl.UNSIGNED_BYTE, data);
+        const data = new Uint8Array(160 * 160 * 4);
+        gl.readPixels(0, 0, 160, 160, gl.RGBA, gl.UNSIGNED_BYTE, data);
         pictures.push(data);
         mixer.update(step);
     }

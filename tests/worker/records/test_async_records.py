@@ -108,6 +108,7 @@ def test_waiting_outlives_a_broken_connection(idle, take):
         for one in await records.redis.client_list():
             if int(one["sub"]):
                 await records.redis.client_kill_filter(_id=one["id"])
+        await asyncio.sleep(0.2)
         await asyncio.to_thread(idle.jobs.cancel, record.id)
         return await asyncio.wait_for(waiting, 10)
 

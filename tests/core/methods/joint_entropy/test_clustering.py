@@ -1,7 +1,7 @@
 """Key-frames into motions."""
 
 import itertools
-from time import process_time
+from time import perf_counter
 
 import numpy as np
 import pytest
@@ -93,6 +93,6 @@ def test_more_points_than_are_sampled_are_grouped_alike(each):
 def test_an_hour_of_key_frames_takes_seconds():
     """Two thousand of them, without structure, where K-means is slowest."""
     points = np.random.default_rng(0).normal(size=(2000, 2000))
-    start = process_time()
+    start = perf_counter()
     cluster_with_chosen_count(points, 0)
-    assert process_time() - start < 20
+    assert perf_counter() - start < 20
