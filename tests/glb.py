@@ -134,3 +134,14 @@ def bending_strip() -> Glb:
     model.animate(2, "rotation", [0, 1], [[0, 0, 0, 1], [0, 0, half, half]])
     model.animate(0, "weights", [0, 1], [0, 1])
     return model
+
+
+def strip_of_two_motions() -> Glb:
+    """The strip, in a take of its own: it nods for four seconds, and then widens and narrows for four."""
+    model = bending_strip()
+    model.json["animations"] = [{"name": "take", "samplers": [], "channels": []}]
+    times = np.arange(241) / 30
+    nod = 0.6 * np.sin(6 * times) * (times < 4)
+    model.animate(2, "rotation", times, np.stack([0 * times, 0 * times, np.sin(nod), np.cos(nod)], 1))
+    model.animate(0, "weights", times, 0.5 * (1 - np.cos(7 * (times - 4))) * (times >= 4))
+    return model

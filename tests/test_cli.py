@@ -265,15 +265,9 @@ def test_the_demo(service: str) -> None:
 
 def test_clips_and_key_poses_are_written_beside_the_result(tmp_path: Path) -> None:
     """`--clips` and `--keyframes` name the files; what is chosen for clips has the names of the API."""
-    from tests.glb import bending_strip
+    from tests.glb import strip_of_two_motions
 
-    model = bending_strip()
-    model.json["animations"] = [{"name": "take", "samplers": [], "channels": []}]
-    times = np.arange(241) / 30
-    nod = 0.6 * np.sin(6 * times) * (times < 4)
-    model.animate(2, "rotation", times, np.stack([0 * times, 0 * times, np.sin(nod), np.cos(nod)], 1))
-    model.animate(0, "weights", times, 0.5 * (1 - np.cos(7 * (times - 4))) * (times >= 4))
-    (tmp_path / "strip.glb").write_bytes(model.glb())
+    (tmp_path / "strip.glb").write_bytes(strip_of_two_motions().glb())
     out, poses = tmp_path / "clips.glb", tmp_path / "poses.glb"
     options = ["--clips", out, "--keyframes", poses, "--keep-source", "--loop", "A"]
     run = caesura("segment", tmp_path / "strip.glb", "--motions", "2", *options)

@@ -117,6 +117,20 @@ def with_its_own_redis(checkout, folder, workers, **settings):
         redis.stop()
 
 
+@contextmanager
+def half_upload(running):
+    """The connection of an upload of 5 MB, of which the service has begun to keep the first 2."""
+    host, port = running.url.removeprefix("http://").split(":")
+    with socket.create_connection((host, int(port)), timeout=20) as client:
+        client.sendall(b"POST /v1/animations HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5000000\r\n\r\nglTF")
+        client.sendall(bytes(2_000_000))
+        deadline = time.monotonic() + 20
+        while not running.spooled():
+            assert time.monotonic() < deadline
+            time.sleep(0.02)
+        yield client
+
+
 @pytest.fixture(scope="session")
 def service(checkout, tmp_path_factory):
     """The whole service, shared by all tests: each sends a take of its own."""

@@ -13,18 +13,13 @@ from caesura.worker.records import redis_keys
 from caesura.worker.records.connection import connect
 from caesura.worker.retention.sweep import sweep
 from caesura.worker.store.blobs import Blobs
-from tests.glb import bending_strip
+from tests.glb import strip_of_two_motions
 
 
 def moves(seed):
     """A strip that nods, and then widens, for four seconds each; other for every seed."""
-    model = bending_strip()
-    model.json["animations"] = [{"name": "take", "samplers": [], "channels": []}]
+    model = strip_of_two_motions()
     model.json["asset"]["extras"] = {"seed": seed}
-    times = np.arange(241) / 30
-    nod = 0.6 * np.sin(6 * times) * (times < 4)
-    model.animate(2, "rotation", times, np.stack([0 * times, 0 * times, np.sin(nod), np.cos(nod)], 1))
-    model.animate(0, "weights", times, 0.5 * (1 - np.cos(7 * (times - 4))) * (times >= 4))
     return model.glb()
 
 

@@ -48,4 +48,4 @@ class WithoutPandas(MetaPathFinder):
 
 sys.meta_path.insert(0, WithoutPandas())
 time.time = jumped_time
-datetime.datetime = JumpedDatetime  # type: ignore[misc]
+datetime.datetime = JumpedDatetime  # type: ignore[misc]  # to replace it is what this is for

@@ -13,7 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from caesura.worker.embedded_redis.server import EmbeddedRedis
-from tests.service.conftest import serve
+from tests.service.conftest import half_upload, serve
 
 
 @pytest.fixture
@@ -55,16 +55,8 @@ def test_a_disk_that_is_full_in_the_middle_of_an_upload_is_said(checkout, idle, 
 
 def test_an_upload_that_a_kill_cuts_short_is_gone_at_the_next_start(checkout, idle, tmp_path):
     """The web process is killed in the middle: what it had received is cleared when another one starts."""
-    with serve(checkout, tmp_path, idle.redis_url, workers=False) as killed:
-        host, port = killed.url.removeprefix("http://").split(":")
-        with socket.create_connection((host, int(port))) as half:
-            half.sendall(b"POST /v1/animations HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5000000\r\n\r\nglTF")
-            half.sendall(bytes(2_000_000))
-            deadline = time.monotonic() + 20
-            while not killed.spooled():
-                assert time.monotonic() < deadline
-                time.sleep(0.02)
-            os.kill(killed.pid, signal.SIGKILL)
+    with serve(checkout, tmp_path, idle.redis_url, workers=False) as killed, half_upload(killed):
+        os.kill(killed.pid, signal.SIGKILL)
     assert killed.spooled()
     with serve(checkout, tmp_path, idle.redis_url, workers=False) as other:
         assert not other.spooled()

@@ -9,7 +9,7 @@ import pytest
 
 from benchmarks.chaos.disk import small_disk
 from tests.conftest import unavailable
-from tests.glb import bending_strip
+from tests.glb import strip_of_two_motions
 from tests.service.conftest import with_its_own_redis
 
 MB = 2**20
@@ -36,12 +36,7 @@ def small(checkout, disk):
 
 def strip_with_picture(size):
     """A strip that nods and widens, with an image of random bytes on it."""
-    model = bending_strip()
-    model.json["animations"] = [{"name": "take", "samplers": [], "channels": []}]
-    times = np.arange(241) / 30
-    nod = 0.6 * np.sin(6 * times) * (times < 4)
-    model.animate(2, "rotation", times, np.stack([0 * times, 0 * times, np.sin(nod), np.cos(nod)], 1))
-    model.animate(0, "weights", times, 0.5 * (1 - np.cos(7 * (times - 4))) * (times >= 4))
+    model = strip_of_two_motions()
     picture = model.view(np.random.default_rng(size).bytes(size))
     model.json["images"] = [{"bufferView": picture, "mimeType": "image/png"}]
     model.json["textures"] = [{"source": 0}]

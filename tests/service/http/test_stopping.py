@@ -4,10 +4,9 @@ import http.client
 import json
 import os
 import signal
-import socket
 import time
 
-from tests.service.conftest import serve
+from tests.service.conftest import half_upload, serve
 
 
 def test_waits_and_streams_end_in_order(idle, take, checkout, tmp_path):
@@ -32,14 +31,7 @@ def test_waits_and_streams_end_in_order(idle, take, checkout, tmp_path):
 def test_an_upload_that_the_end_cuts_short_is_told_to_come_again(idle, checkout, tmp_path):
     """503 with Retry-After for what still comes, neither 500 nor a connection that breaks; nothing is kept."""
     with serve(checkout, tmp_path, idle.redis_url, workers=False) as other:
-        host, port = other.url.removeprefix("http://").split(":")
-        with socket.create_connection((host, int(port)), timeout=20) as client:
-            client.sendall(b"POST /v1/animations HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5000000\r\n\r\nglTF")
-            client.sendall(bytes(2_000_000))
-            deadline = time.monotonic() + 20
-            while not other.spooled():
-                assert time.monotonic() < deadline
-                time.sleep(0.02)
+        with half_upload(other) as client:
             os.kill(other.pid, signal.SIGTERM)
             time.sleep(0.3)
             client.sendall(bytes(500_000))
